@@ -8,16 +8,15 @@
 #include "assets/obj_file.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/finding_json.h"
 #include "core/log.h"
 
 namespace simwright::assets {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kMostParts = 10000;
-
-Json LinkJson(const ArticulatedLink& link) {
-  Json json;
+core::OrderedJson LinkJson(const ArticulatedLink& link) {
+  core::OrderedJson json;
   json["name"] = link.name;
   json["label"] = link.label;
   json["material"] = link.material;
@@ -27,15 +26,15 @@ Json LinkJson(const ArticulatedLink& link) {
   json["volume_m3"] = link.volume;
   json["parts"] = link.parts.size();
   json["densities_kg_m3"] = link.densities;
-  json["visuals"] = Json::array();
+  json["visuals"] = core::OrderedJson::array();
   for (const ColoredPiece& piece : ColoredPieces(link)) {
     json["visuals"].push_back(piece.stem + ".obj");
   }
   return json;
 }
 
-Json JointJson(const Joint& joint) {
-  Json json;
+core::OrderedJson JointJson(const Joint& joint) {
+  core::OrderedJson json;
   json["name"] = joint.name;
   json["type"] = JointTypeName(joint.type);
   json["parent"] = joint.parent;
@@ -51,8 +50,8 @@ Json JointJson(const Joint& joint) {
   return json;
 }
 
-Json ArticulatedJson(const ArticulatedAsset& a) {
-  Json json;
+core::OrderedJson ArticulatedJson(const ArticulatedAsset& a) {
+  core::OrderedJson json;
   json["format"] = kFormatVersion;
   json["articulated"] = true;
   json["name"] = a.name;
@@ -65,37 +64,37 @@ Json ArticulatedJson(const ArticulatedAsset& a) {
                       {"max", ToJson(Eigen::Vector3d(box.max()))}};
   json.update(ToJson(CombinedInertial(ModelOf(a))));
   json["features"] = a.features;
-  json["links"] = Json::array();
+  json["links"] = core::OrderedJson::array();
   for (const ArticulatedLink& link : a.links) json["links"].push_back(LinkJson(link));
-  json["joints"] = Json::array();
+  json["joints"] = core::OrderedJson::array();
   for (const Joint& joint : a.joints) json["joints"].push_back(JointJson(joint));
   if (!a.excluded_pairs.empty()) json["excluded_pairs"] = a.excluded_pairs;
-  json["findings"] = ToJson(a.findings);
+  json["findings"] = core::StoredFindingsJson(a.findings);
   json["versions"] = {{"simwright", SIMWRIGHT_VERSION}};
   return json;
 }
 
-Joint JointFrom(const Json& json) {
+Joint JointFrom(const core::JsonField& field) {
   Joint joint;
-  joint.name = json.at("name");
-  joint.type = JointTypeNamed(json.at("type"));
-  joint.parent = json.at("parent");
-  joint.child = json.at("child");
-  joint.parent_from_joint = PoseFrom(json.at("parent_from_joint"));
-  joint.axis = VectorFrom(json.at("axis"));
-  joint.lower = json.at("lower");
-  joint.upper = json.at("upper");
-  joint.damping = json.at("damping");
-  joint.friction = json.at("friction");
-  joint.effort = json.at("effort");
-  joint.velocity = json.at("velocity");
+  joint.name = field["name"].Text();
+  joint.type = JointTypeNamed(field["type"].Text());
+  joint.parent = field["parent"].Text();
+  joint.child = field["child"].Text();
+  joint.parent_from_joint = PoseFrom(field["parent_from_joint"]);
+  joint.axis = field["axis"].Vector<3>();
+  joint.lower = field["lower"].Number();
+  joint.upper = field["upper"].Number();
+  joint.damping = field["damping"].Number();
+  joint.friction = field["friction"].Number();
+  joint.effort = field["effort"].Number();
+  joint.velocity = field["velocity"].Number();
   return joint;
 }
 
-core::TexturedMesh VisualFrom(const Json& files, const fs::path& folder) {
+core::TexturedMesh VisualFrom(const core::JsonField& files, const fs::path& folder) {
   core::TexturedMesh visual;
-  for (const Json& file : files) {
-    const core::TexturedMesh piece = ReadMesh(core::ResolveInside(folder, file.get<std::string>()));
+  for (const std::string& file : files.Texts()) {
+    const core::TexturedMesh piece = ReadMesh(core::ResolveInside(folder, file));
     core::Append(piece.mesh, &visual.mesh);
     const int index = static_cast<int>(visual.materials.size());
     visual.triangle_material.resize(visual.mesh.triangles.size(), index);
@@ -104,30 +103,32 @@ core::TexturedMesh VisualFrom(const Json& files, const fs::path& folder) {
   return visual;
 }
 
-ArticulatedLink LinkFrom(const Json& json, const fs::path& folder) {
+ArticulatedLink LinkFrom(const core::JsonField& field, const fs::path& folder) {
   ArticulatedLink link;
-  link.name = json.at("name");
-  link.label = json.at("label");
-  link.material = json.at("material");
-  link.friction = json.at("friction");
-  link.restitution = json.at("restitution");
-  link.inertial = InertialFrom(json);
-  link.volume = json.at("volume_m3");
-  const int parts = json.at("parts");
-  if (FileSafeName(link.name) != link.name || parts < 0 || parts > kMostParts) {
-    throw core::Error("names an invalid link", (folder / "asset.json").string(),
-                      "make the asset again");
-  }
-  link.densities = json.at("densities_kg_m3").get<std::vector<double>>();
-  if (link.densities.size() != static_cast<size_t>(parts)) {
-    throw core::Error("does not have one density per part", (folder / "asset.json").string(),
-                      "make the asset again");
-  }
+  link.name = field["name"].Text();
+  if (FileSafeName(link.name) != link.name) field["name"].Fail("is not a valid name of a link");
+  link.label = field["label"].Text();
+  link.material = field["material"].Text();
+  link.friction = field["friction"].Number();
+  link.restitution = field["restitution"].Number();
+  link.inertial = InertialFrom(field);
+  link.volume = field["volume_m3"].Number();
+  const int parts = field["parts"].Int(0, kMaxParts);
+  link.densities = field["densities_kg_m3"].Numbers(static_cast<size_t>(parts));
   for (int i = 0; i < parts; ++i) {
     link.parts.push_back(ReadBareObj(folder / LinkCollisionFileName(link.name, i)));
   }
-  link.visual = VisualFrom(json.at("visuals"), folder);
+  link.visual = VisualFrom(field["visuals"], folder);
   return link;
+}
+
+std::vector<ExcludedPair> ExcludedPairsFrom(const core::JsonField& field) {
+  std::vector<ExcludedPair> pairs;
+  for (const core::JsonField& pair : field.Elements()) {
+    const std::vector<core::JsonField> names = pair.Elements(2);
+    pairs.emplace_back(names[0].Text(), names[1].Text());
+  }
+  return pairs;
 }
 
 // Requires that joint i connects an earlier link to link i + 1.
@@ -163,47 +164,47 @@ void WriteArticulatedAsset(const ArticulatedAsset& asset, const fs::path& folder
                   MjcfSceneText(asset.name, parts, BoundsAtZero(asset)));
   core::WriteFile(folder / (asset.name + ".sdf"), ArticulatedSdfText(asset));
   core::WriteFile(folder / "semantics.txt", SemanticsText(asset));
-  core::WriteFile(folder / "asset.json", ArticulatedJson(asset).dump(2) + "\n");
+  core::WriteFile(folder / "asset.json", core::JsonText(ArticulatedJson(asset)));
   core::Log(core::LogLevel::kInfo, "assets", "wrote ", folder, ": ", asset.links.size(), " links, ",
             parts, " collision parts");
 }
 
 bool IsArticulatedAssetFolder(const fs::path& folder) {
   if (!fs::is_regular_file(folder / "asset.json")) return false;
-  const Json json = Json::parse(core::ReadFile(folder / "asset.json", 16 << 20), nullptr, false);
-  const auto found = json.is_object() ? json.find("articulated") : json.end();
-  return found != json.end() && found->is_boolean() && found->get<bool>();
+  const auto json = core::TryParseJson(core::ReadFile(folder / "asset.json", kMaxAssetJsonBytes));
+  const core::Json* articulated = json ? core::FindMember(*json, "articulated") : nullptr;
+  return articulated != nullptr && articulated->is_boolean() && articulated->get<bool>();
 }
 
 ArticulatedAsset ReadArticulatedAsset(const fs::path& folder) {
-  const fs::path file = folder / "asset.json";
-  ArticulatedAsset asset;
-  try {
-    const Json json = Json::parse(core::ReadFile(file, 16 << 20));
-    if (json.at("format").get<int>() > kFormatVersion) {
-      throw core::Error("was written by a newer version", file.string(), "update simwright");
-    }
-    if (!json.value("articulated", false)) {
-      throw core::Error("describes a rigid asset", file.string(), "use an articulated one");
-    }
-    asset.name = json.at("name");
-    if (FileSafeName(asset.name) != asset.name) {
-      throw core::Error("names no asset", file.string(), "make the asset again");
-    }
-    asset.source = json.at("source");
-    asset.seed = json.at("seed");
-    asset.fixed = json.at("fixed");
-    asset.parameters = ParametersFrom(json);
-    asset.features = json.at("features").get<std::map<std::string, std::string>>();
-    for (const Json& link : json.at("links")) asset.links.push_back(LinkFrom(link, folder));
-    for (const Json& joint : json.at("joints")) asset.joints.push_back(JointFrom(joint));
-    asset.excluded_pairs = json.value("excluded_pairs", std::vector<ExcludedPair>());
-    asset.findings = FindingsFrom(json.at("findings"));
-  } catch (const nlohmann::json::exception& error) {
-    throw core::Error(std::string("is not a valid asset description: ") + error.what(),
-                      file.string(), "make the asset again");
+  const core::JsonDocument document = ReadAssetJson(folder);
+  const core::JsonField root = document.root();
+  if (!root.FlagOr("articulated", false)) {
+    throw core::Error("describes a rigid asset", document.file(), "use an articulated one");
   }
-  RequireLinkTree(asset, file.string());
+  ArticulatedAsset asset;
+  asset.name = root["name"].Text();
+  if (FileSafeName(asset.name) != asset.name) {
+    throw core::Error("names no asset", document.file(), kAssetRemedy);
+  }
+  asset.source = root["source"].Text();
+  asset.seed = root["seed"].Unsigned();
+  asset.fixed = root["fixed"].Flag();
+  asset.parameters = ParametersFrom(root);
+  for (const auto& [name, feature] : root["features"].Members()) {
+    asset.features[name] = feature.Text();
+  }
+  for (const core::JsonField& link : root["links"].Elements()) {
+    asset.links.push_back(LinkFrom(link, folder));
+  }
+  for (const core::JsonField& joint : root["joints"].Elements()) {
+    asset.joints.push_back(JointFrom(joint));
+  }
+  if (root.Has("excluded_pairs")) {
+    asset.excluded_pairs = ExcludedPairsFrom(root["excluded_pairs"]);
+  }
+  asset.findings = core::FindingsFrom(root["findings"]);
+  RequireLinkTree(asset, document.file());
   core::Log(core::LogLevel::kInfo, "assets", "read ", folder, ": ", asset.links.size(), " links");
   return asset;
 }

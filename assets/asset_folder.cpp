@@ -9,13 +9,14 @@
 #include "assets/obj_file.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/finding_json.h"
 #include "core/log.h"
 
 namespace simwright::assets {
 namespace {
 
-Json RigidJson(const Asset& a) {
-  Json json;
+core::OrderedJson RigidJson(const Asset& a) {
+  core::OrderedJson json;
   json["format"] = kFormatVersion;
   json["name"] = a.name;
   json["source"] = a.source;
@@ -39,38 +40,37 @@ Json RigidJson(const Asset& a) {
   json["link_from_input"] = ToJson(a.link_from_input);
   json["link_from_input"]["scale"] = a.scale;
   json["rolls"] = a.rolls;
-  json["findings"] = ToJson(a.findings);
+  json["findings"] = core::StoredFindingsJson(a.findings);
   json["versions"] = {{"simwright", SIMWRIGHT_VERSION}};
   return json;
 }
 
-Asset AssetFrom(const Json& json, const std::string& where) {
-  if (json.value("articulated", false)) {
+Asset AssetFrom(const core::JsonField& field, const std::string& where) {
+  if (field.FlagOr("articulated", false)) {
     throw core::Error("has joints and is not a single body", where,
                       "read it as an articulated asset");
   }
   Asset a;
-  a.name = json.at("name");
-  a.parameters = ParametersFrom(json);
+  a.name = field["name"].Text();
+  a.parameters = ParametersFrom(field);
   a.friction = a.parameters.friction.sample;
   a.restitution = a.parameters.restitution.sample;
-  a.rolling_friction = json.at("rolling_friction_m");
-  a.source = json.at("source");
-  a.seed = json.at("seed");
-  a.inertial = InertialFrom(json);
-  a.volume = json.at("volume_m3");
-  a.density = json.at("density_kg_m3");
-  a.wall_thickness = json.at("wall_thickness_m");
-  a.wall_on_surface = json.value("wall_on_surface", a.wall_thickness > 0.0);
-  a.mass_sentence = json.at("mass_reconciled");
-  a.solid_method = json.at("solid").at("method");
-  a.sheet_thickness = json.at("solid").at("sheet_thickness_m");
-  a.concavity = json.at("parts").at("concavity");
-  a.coverage = json.at("parts").at("coverage");
-  const Json& turn = json.at("link_from_input");
-  a.scale = turn.at("scale");
-  a.link_from_input = PoseFrom(turn);
-  a.rolls = json.at("rolls");
+  a.rolling_friction = field["rolling_friction_m"].Number();
+  a.source = field["source"].Text();
+  a.seed = field["seed"].Unsigned();
+  a.inertial = InertialFrom(field);
+  a.volume = field["volume_m3"].Number();
+  a.density = field["density_kg_m3"].Number();
+  a.wall_thickness = field["wall_thickness_m"].Number();
+  a.wall_on_surface = field.FlagOr("wall_on_surface", a.wall_thickness > 0.0);
+  a.mass_sentence = field["mass_reconciled"].Text();
+  a.solid_method = field["solid"]["method"].Text();
+  a.sheet_thickness = field["solid"]["sheet_thickness_m"].Number();
+  a.concavity = field["parts"]["concavity"].Number();
+  a.coverage = field["parts"]["coverage"].Number();
+  a.scale = field["link_from_input"]["scale"].Number();
+  a.link_from_input = PoseFrom(field["link_from_input"]);
+  a.rolls = field["rolls"].Flag();
   return a;
 }
 
@@ -92,7 +92,7 @@ void WriteAsset(const Asset& asset, const std::filesystem::path& folder) {
                   MjcfSceneText(asset.name, static_cast<int>(asset.parts.size()),
                                 core::Bounds(asset.visual.mesh)));
   core::WriteFile(folder / (asset.name + ".sdf"), SdfText(asset));
-  core::WriteFile(folder / "asset.json", RigidJson(asset).dump(2) + "\n");
+  core::WriteFile(folder / "asset.json", core::JsonText(RigidJson(asset)));
   core::Log(core::LogLevel::kInfo, "assets", "wrote ", folder, ": ", asset.parts.size(),
             " collision parts, ", asset.inertial.mass, " kg");
 }
@@ -100,38 +100,25 @@ void WriteAsset(const Asset& asset, const std::filesystem::path& folder) {
 void AddFindings(const std::filesystem::path& folder, const core::Findings& findings) {
   if (findings.empty()) return;
   const std::filesystem::path file = folder / "asset.json";
-  Json json;
-  try {
-    json = Json::parse(core::ReadFile(file, 16 << 20));
-    Json& known = json.at("findings");
-    for (const Json& finding : ToJson(findings)) {
-      if (std::find(known.begin(), known.end(), finding) == known.end()) known.push_back(finding);
-    }
-  } catch (const nlohmann::json::exception& error) {
-    throw core::Error(std::string("is not a valid asset description: ") + error.what(),
-                      file.string(), "make the asset again");
+  core::OrderedJson json =
+      core::ParseOrderedJson(core::ReadFile(file, kMaxAssetJsonBytes), file.string(), kAssetRemedy);
+  if (!json.is_object() || !json.contains("findings") || !json["findings"].is_array()) {
+    throw core::Error("'findings' is missing or is not an array", file.string(), kAssetRemedy);
   }
-  core::WriteFile(file, json.dump(2) + "\n");
+  core::OrderedJson& known = json["findings"];
+  for (const core::OrderedJson& finding : core::StoredFindingsJson(findings)) {
+    if (std::find(known.begin(), known.end(), finding) == known.end()) known.push_back(finding);
+  }
+  core::WriteFile(file, core::JsonText(json));
 }
 
 Asset ReadAsset(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "asset.json";
-  Asset asset;
-  int parts = 0;
-  try {
-    const Json json = Json::parse(core::ReadFile(file, 16 << 20));
-    if (json.at("format").get<int>() > kFormatVersion) {
-      throw core::Error("was written by a newer version", file.string(), "update simwright");
-    }
-    asset = AssetFrom(json, file.string());
-    parts = json.at("parts").at("count");
-  } catch (const nlohmann::json::exception& error) {
-    throw core::Error(std::string("is not a valid asset description: ") + error.what(),
-                      file.string(), "make the asset again");
+  const core::JsonDocument document = ReadAssetJson(folder);
+  Asset asset = AssetFrom(document.root(), document.file());
+  if (FileSafeName(asset.name) != asset.name) {
+    throw core::Error("is not a valid asset description", document.file(), kAssetRemedy);
   }
-  if (FileSafeName(asset.name) != asset.name || parts < 0 || parts > 10000) {
-    throw core::Error("is not a valid asset description", file.string(), "make the asset again");
-  }
+  const int parts = document.root()["parts"]["count"].Int(0, kMaxParts);
   asset.visual = ReadMesh(folder / "visual.obj");
   asset.solid = ReadBareObj(folder / "solid.obj");
   for (int i = 0; i < parts; ++i) {

@@ -1,53 +1,48 @@
 #include "assets/asset_json.h"
 
+#include "core/error.h"
+
 namespace simwright::assets {
 namespace {
 
-constexpr const char* kSeverities[] = {"info", "warning", "error"};
+using core::JsonField;
+using core::OrderedJson;
+
+physics_params::Estimate EstimateFrom(const JsonField& field) {
+  return {field["min"].Number(), field["max"].Number(), field["sample"].Number(),
+          field["source"].Text()};
+}
 
 }  // namespace
 
-Json ToJson(const physics_params::Estimate& e) {
+OrderedJson ToJson(const physics_params::Estimate& e) {
   return {{"min", e.min}, {"max", e.max}, {"sample", e.sample}, {"source", e.source}};
 }
 
-Json ToJson(const Eigen::Vector3d& v) {
-  return Json::array({v.x(), v.y(), v.z()});
+OrderedJson ToJson(const Eigen::Vector3d& v) {
+  return OrderedJson::array({v.x(), v.y(), v.z()});
 }
 
-Json ToJson(const Eigen::Matrix3d& m) {
-  Json rows = Json::array();
+OrderedJson ToJson(const Eigen::Matrix3d& m) {
+  OrderedJson rows = OrderedJson::array();
   for (int row = 0; row < 3; ++row) rows.push_back(ToJson(Eigen::Vector3d(m.row(row))));
   return rows;
 }
 
-Json ToJson(const Eigen::Isometry3d& pose) {
+OrderedJson ToJson(const Eigen::Isometry3d& pose) {
   const Eigen::Quaterniond q(pose.linear());
   return {{"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
           {"translation", ToJson(Eigen::Vector3d(pose.translation()))}};
 }
 
-Json ToJson(const Inertial& inertial) {
+OrderedJson ToJson(const Inertial& inertial) {
   return {{"mass", inertial.mass},
           {"center_of_mass", ToJson(inertial.center_of_mass)},
           {"inertia", ToJson(inertial.inertia)}};
 }
 
-Json ToJson(const core::Findings& findings) {
-  Json list = Json::array();
-  for (const core::Finding& f : findings) {
-    list.push_back({{"code", f.code},
-                    {"severity", kSeverities[static_cast<int>(f.severity)]},
-                    {"place", f.place},
-                    {"sentence", f.sentence},
-                    {"figure", f.figure}});
-    if (!f.remedy.empty()) list.back()["remedy"] = f.remedy;
-  }
-  return list;
-}
-
-Json ToJson(const physics_params::PhysicalParameters& p) {
-  Json json;
+OrderedJson ToJson(const physics_params::PhysicalParameters& p) {
+  OrderedJson json;
   json["category"] = p.category;
   json["category_resolution"] = p.resolution;
   json["size_m"] = {
@@ -61,63 +56,47 @@ Json ToJson(const physics_params::PhysicalParameters& p) {
   return json;
 }
 
-physics_params::Estimate EstimateFrom(const Json& json) {
-  return {json.at("min"), json.at("max"), json.at("sample"), json.at("source")};
+core::JsonDocument ReadAssetJson(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "asset.json";
+  core::JsonDocument document = core::JsonDocument::Read(file, kMaxAssetJsonBytes, kAssetRemedy);
+  if (document.root()["format"].Int() > kFormatVersion) {
+    throw core::Error("was written by a newer version", file.string(), "update simwright");
+  }
+  return document;
 }
 
-Eigen::Vector3d VectorFrom(const Json& json) {
-  return Eigen::Vector3d(json.at(0).get<double>(), json.at(1).get<double>(),
-                         json.at(2).get<double>());
-}
-
-Eigen::Isometry3d PoseFrom(const Json& json) {
-  const Json& q = json.at("rotation_wxyz");
+Eigen::Isometry3d PoseFrom(const JsonField& field) {
+  const std::vector<double> q = field["rotation_wxyz"].Numbers(4);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = Eigen::Quaterniond(q.at(0).get<double>(), q.at(1).get<double>(),
-                                     q.at(2).get<double>(), q.at(3).get<double>())
-                      .normalized()
-                      .toRotationMatrix();
-  pose.translation() = VectorFrom(json.at("translation"));
+  pose.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  pose.translation() = field["translation"].Vector<3>();
   return pose;
 }
 
-Inertial InertialFrom(const Json& json) {
+Inertial InertialFrom(const JsonField& field) {
   Inertial inertial;
-  inertial.mass = json.at("mass");
-  inertial.center_of_mass = VectorFrom(json.at("center_of_mass"));
+  inertial.mass = field["mass"].Number();
+  inertial.center_of_mass = field["center_of_mass"].Vector<3>();
+  const std::vector<JsonField> rows = field["inertia"].Elements(3);
   for (int row = 0; row < 3; ++row) {
-    inertial.inertia.row(row) = VectorFrom(json.at("inertia").at(row));
+    inertial.inertia.row(row) = rows[static_cast<size_t>(row)].Vector<3>();
   }
   return inertial;
 }
 
-core::Findings FindingsFrom(const Json& json) {
-  core::Findings findings;
-  for (const Json& entry : json) {
-    core::Finding finding{entry.at("code"),     core::Severity::kInfo, entry.at("place"),
-                          entry.at("sentence"), entry.at("figure"),    entry.value("remedy", "")};
-    for (int i = 0; i < 3; ++i) {
-      if (entry.at("severity") == kSeverities[i]) {
-        finding.severity = static_cast<core::Severity>(i);
-      }
-    }
-    findings.push_back(finding);
-  }
-  return findings;
-}
-
-physics_params::PhysicalParameters ParametersFrom(const Json& json) {
+physics_params::PhysicalParameters ParametersFrom(const JsonField& field) {
   physics_params::PhysicalParameters p;
-  p.category = json.at("category");
-  p.resolution = json.at("category_resolution");
-  p.length = EstimateFrom(json.at("size_m").at("length"));
-  p.width = EstimateFrom(json.at("size_m").at("width"));
-  p.height = EstimateFrom(json.at("size_m").at("height"));
-  p.mass = EstimateFrom(json.at("mass_kg"));
-  p.material = json.at("material").at("name");
-  p.density = EstimateFrom(json.at("material").at("density_kg_m3"));
-  p.friction = EstimateFrom(json.at("friction"));
-  p.restitution = EstimateFrom(json.at("restitution"));
+  p.category = field["category"].Text();
+  p.resolution = field["category_resolution"].Text();
+  const JsonField size = field["size_m"];
+  p.length = EstimateFrom(size["length"]);
+  p.width = EstimateFrom(size["width"]);
+  p.height = EstimateFrom(size["height"]);
+  p.mass = EstimateFrom(field["mass_kg"]);
+  p.material = field["material"]["name"].Text();
+  p.density = EstimateFrom(field["material"]["density_kg_m3"]);
+  p.friction = EstimateFrom(field["friction"]);
+  p.restitution = EstimateFrom(field["restitution"]);
   return p;
 }
 

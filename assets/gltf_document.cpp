@@ -13,7 +13,7 @@
 
 namespace simwright::assets {
 namespace fs = std::filesystem;
-using nlohmann::json;
+using core::Json;
 namespace {
 
 constexpr std::uint64_t kMaxGltfBytes = 4ull << 30;
@@ -87,55 +87,37 @@ size_t ComponentsOfType(const std::string& type) {
   return type == "MAT4" ? 16 : 0;
 }
 
-size_t SizeMember(const json& object, const char* name, size_t otherwise) {
+size_t SizeMember(const Json& object, const char* name, size_t otherwise) {
   return IndexMember(object, name).value_or(otherwise);
 }
 
 }  // namespace
 
-const json* Member(const json& object, const char* name) {
-  if (!object.is_object()) return nullptr;
-  const auto found = object.find(name);
-  return found == object.end() ? nullptr : &*found;
-}
-
-std::optional<size_t> IndexMember(const json& object, const char* name) {
-  const json* member = Member(object, name);
+std::optional<size_t> IndexMember(const Json& object, const char* name) {
+  const Json* member = core::FindMember(object, name);
   if (member == nullptr || !member->is_number()) return std::nullopt;
   const double value = member->get<double>();
   if (!(value >= 0.0) || value > 1e15 || value != std::floor(value)) return std::nullopt;
   return static_cast<size_t>(value);
 }
 
-double NumberMember(const json& object, const char* name, double otherwise) {
-  const json* member = Member(object, name);
-  if (member == nullptr || !member->is_number()) return otherwise;
-  const double value = member->get<double>();
-  return std::isfinite(value) ? value : otherwise;
-}
-
-std::string TextMember(const json& object, const char* name) {
-  const json* member = Member(object, name);
-  return member != nullptr && member->is_string() ? member->get<std::string>() : "";
-}
-
-std::vector<double> NumbersMember(const json& object, const char* name,
+std::vector<double> NumbersMember(const Json& object, const char* name,
                                   const std::vector<double>& otherwise) {
-  const json* member = Member(object, name);
+  const Json* member = core::FindMember(object, name);
   if (member == nullptr || !member->is_array() || member->size() != otherwise.size()) {
     return otherwise;
   }
   std::vector<double> numbers;
-  for (const json& item : *member) {
+  for (const Json& item : *member) {
     if (!item.is_number() || !std::isfinite(item.get<double>())) return otherwise;
     numbers.push_back(item.get<double>());
   }
   return numbers;
 }
 
-const json* Extension(const json& object, const char* name) {
-  const json* extensions = Member(object, "extensions");
-  return extensions == nullptr ? nullptr : Member(*extensions, name);
+const Json* Extension(const Json& object, const char* name) {
+  const Json* extensions = core::FindMember(object, "extensions");
+  return extensions == nullptr ? nullptr : core::FindMember(*extensions, name);
 }
 
 GltfDocument::GltfDocument(const fs::path& path) : path_(path) {
@@ -175,13 +157,14 @@ void GltfDocument::ReadContainer(std::string bytes) {
     }
   }
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  root_ = json::parse(text, nullptr, false);
-  if (root_.is_discarded()) Fail("the JSON of the glTF is damaged");
+  auto root = core::TryParseJson(text);
+  if (!root) Fail("the JSON of the glTF is damaged");
+  root_ = std::move(*root);
 }
 
 void GltfDocument::RequireVersion() const {
-  const json* asset = Member(root_, "asset");
-  const std::string version = asset == nullptr ? "" : TextMember(*asset, "version");
+  const Json* asset = core::FindMember(root_, "asset");
+  const std::string version = asset == nullptr ? "" : core::TextMember(*asset, "version");
   if (version.empty()) Fail("the glTF does not declare its version", "export it again");
   if (!version.starts_with("2.")) {
     Fail("this is glTF " + version + ", only 2.0 is read",
@@ -189,8 +172,8 @@ void GltfDocument::RequireVersion() const {
   }
 }
 
-const json& GltfDocument::At(const char* list, size_t index) const {
-  const json* items = Member(root_, list);
+const Json& GltfDocument::At(const char* list, size_t index) const {
+  const Json* items = core::FindMember(root_, list);
   if (items == nullptr || !items->is_array() || index >= items->size() ||
       !(*items)[index].is_object()) {
     Fail("names " + std::string(list) + "[" + std::to_string(index) + "], which is not there");
@@ -221,11 +204,11 @@ std::string GltfDocument::BytesOfUri(const std::string& uri, const std::string& 
 }
 
 void GltfDocument::ReadBuffers() {
-  const json* list = Member(root_, "buffers");
+  const Json* list = core::FindMember(root_, "buffers");
   const size_t count = list != nullptr && list->is_array() ? list->size() : 0;
   for (size_t i = 0; i < count; ++i) {
-    const json& buffer = At("buffers", i);
-    const std::string uri = TextMember(buffer, "uri");
+    const Json& buffer = At("buffers", i);
+    const std::string uri = core::TextMember(buffer, "uri");
     const std::string what = "buffers[" + std::to_string(i) + "]";
     if (!uri.empty()) {
       buffers_.push_back(BytesOfUri(uri, what));
@@ -236,7 +219,7 @@ void GltfDocument::ReadBuffers() {
 }
 
 std::string_view GltfDocument::BufferView(size_t index) const {
-  const json& view = At("bufferViews", index);
+  const Json& view = At("bufferViews", index);
   const std::string place = "bufferViews[" + std::to_string(index) + "]";
   const size_t buffer = SizeMember(view, "buffer", buffers_.size());
   if (buffer >= buffers_.size()) Fail(place + " names a buffer that is not there");
@@ -254,15 +237,15 @@ size_t GltfDocument::CountOf(size_t accessor) const {
 }
 
 size_t GltfDocument::ComponentsOf(size_t accessor) const {
-  return ComponentsOfType(TextMember(At("accessors", accessor), "type"));
+  return ComponentsOfType(core::TextMember(At("accessors", accessor), "type"));
 }
 
-void GltfDocument::PutSparse(const json& accessor, size_t components, int type, bool normalized,
+void GltfDocument::PutSparse(const Json& accessor, size_t components, int type, bool normalized,
                              std::vector<double>* numbers) const {
-  const json* sparse = Member(accessor, "sparse");
+  const Json* sparse = core::FindMember(accessor, "sparse");
   if (sparse == nullptr) return;
-  const json* indices = Member(*sparse, "indices");
-  const json* values = Member(*sparse, "values");
+  const Json* indices = core::FindMember(*sparse, "indices");
+  const Json* values = core::FindMember(*sparse, "values");
   if (indices == nullptr || values == nullptr) Fail("a sparse accessor lacks its values");
   const size_t count = SizeMember(*sparse, "count", 0);
   const int index_type = static_cast<int>(SizeMember(*indices, "componentType", 0));
@@ -290,7 +273,7 @@ void GltfDocument::PutSparse(const json& accessor, size_t components, int type, 
 }
 
 std::vector<double> GltfDocument::Numbers(size_t index, size_t components) const {
-  const json& accessor = At("accessors", index);
+  const Json& accessor = At("accessors", index);
   const std::string place = "accessors[" + std::to_string(index) + "]";
   const int type = static_cast<int>(SizeMember(accessor, "componentType", 0));
   const size_t size = BytesOfType(type);
@@ -299,7 +282,7 @@ std::vector<double> GltfDocument::Numbers(size_t index, size_t components) const
     Fail(place + " does not have " + std::to_string(components) + " known numbers");
   }
   if (count > kMaxNumbers / components) Fail(place + " has too many elements", "decimate the mesh");
-  const json* flag = Member(accessor, "normalized");
+  const Json* flag = core::FindMember(accessor, "normalized");
   const bool normalized = flag != nullptr && flag->is_boolean() && flag->get<bool>();
   std::vector<double> numbers;
   if (const auto view = IndexMember(accessor, "bufferView")) {
@@ -342,9 +325,9 @@ std::vector<std::uint32_t> GltfDocument::Integers(size_t accessor, size_t compon
 }
 
 std::optional<std::string> GltfDocument::ImageBytes(size_t index, std::string* file) const {
-  const json& image = At("images", index);
+  const Json& image = At("images", index);
   if (const auto view = IndexMember(image, "bufferView")) return std::string(BufferView(*view));
-  const std::string uri = TextMember(image, "uri");
+  const std::string uri = core::TextMember(image, "uri");
   if (uri.starts_with("data:")) return BytesOfUri(uri, "images[" + std::to_string(index) + "]");
   *file = uri;
   return std::nullopt;

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include "core/json.h"
 
 namespace simwright::assets {
 
@@ -18,11 +18,11 @@ class GltfDocument {
   // Reads the file and its buffers, which are embedded or lie beside it.
   explicit GltfDocument(const std::filesystem::path& path);
 
-  const nlohmann::json& root() const { return root_; }
+  const core::Json& root() const { return root_; }
   const std::filesystem::path& path() const { return path_; }
 
   // Returns element `index` of a top-level list ("meshes"), an object.
-  const nlohmann::json& At(const char* list, size_t index) const;
+  const core::Json& At(const char* list, size_t index) const;
 
   // Returns an accessor's elements in sequence, `components` numbers each; normalised integers are
   // converted and sparse values substituted.
@@ -46,25 +46,21 @@ class GltfDocument {
   void ReadBuffers();
   std::string BytesOfUri(const std::string& uri, const std::string& what) const;
   std::vector<double> Numbers(size_t accessor, size_t components) const;
-  void PutSparse(const nlohmann::json& accessor, size_t components, int type, bool normalized,
+  void PutSparse(const core::Json& accessor, size_t components, int type, bool normalized,
                  std::vector<double>* numbers) const;
 
   std::filesystem::path path_;
-  nlohmann::json root_;
+  core::Json root_;
   std::string binary_;                // the GLB's embedded buffer
   std::vector<std::string> buffers_;  // by index
 };
 
-// Returns the member of an object, or null.
-const nlohmann::json* Member(const nlohmann::json& object, const char* name);
 // Returns a member that is an index, if present.
-std::optional<size_t> IndexMember(const nlohmann::json& object, const char* name);
-double NumberMember(const nlohmann::json& object, const char* name, double otherwise);
-std::string TextMember(const nlohmann::json& object, const char* name);
+std::optional<size_t> IndexMember(const core::Json& object, const char* name);
 // Returns a member of `count` numbers, or `otherwise`.
-std::vector<double> NumbersMember(const nlohmann::json& object, const char* name,
+std::vector<double> NumbersMember(const core::Json& object, const char* name,
                                   const std::vector<double>& otherwise);
 // Returns the extension object of `object`, or null.
-const nlohmann::json* Extension(const nlohmann::json& object, const char* name);
+const core::Json* Extension(const core::Json& object, const char* name);
 
 }  // namespace simwright::assets

@@ -6,7 +6,7 @@
 #include "core/error.h"
 
 namespace simwright::assets {
-using nlohmann::json;
+using core::Json;
 namespace {
 
 constexpr std::string_view kRead[] = {
@@ -28,11 +28,11 @@ bool AffectsAppearanceOnly(std::string_view name) {
   return false;
 }
 
-std::vector<std::string> Names(const json& root, const char* member) {
+std::vector<std::string> Names(const Json& root, const char* member) {
   std::vector<std::string> names;
   const auto list = root.find(member);
   if (list == root.end() || !list->is_array()) return names;
-  for (const json& name : *list) {
+  for (const Json& name : *list) {
     if (name.is_string()) names.push_back(name.get<std::string>());
   }
   return names;
@@ -51,7 +51,7 @@ std::string RemedyFor(std::string_view name) {
 
 }  // namespace
 
-void RequireReadableExtensions(const json& root, const std::string& where) {
+void RequireReadableExtensions(const Json& root, const std::string& where) {
   for (const std::string& name : Names(root, "extensionsRequired")) {
     if (IsRead(name) || AffectsAppearanceOnly(name)) continue;
     throw core::Error("requires the glTF extension " + name + ", which is not read", where,
@@ -59,7 +59,7 @@ void RequireReadableExtensions(const json& root, const std::string& where) {
   }
 }
 
-std::vector<std::string> UnreadExtensions(const json& root) {
+std::vector<std::string> UnreadExtensions(const Json& root) {
   std::vector<std::string> unread;
   for (const char* member : {"extensionsUsed", "extensionsRequired"}) {
     for (const std::string& name : Names(root, member)) {

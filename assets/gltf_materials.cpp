@@ -6,7 +6,7 @@
 #include "core/error.h"
 
 namespace simwright::assets {
-using nlohmann::json;
+using core::Json;
 namespace {
 
 core::Image WithoutAlpha(const core::Image& image) {
@@ -18,7 +18,7 @@ core::Image WithoutAlpha(const core::Image& image) {
   return opaque;
 }
 
-Eigen::Vector4f Factor(const json& object, const char* name) {
+Eigen::Vector4f Factor(const Json& object, const char* name) {
   const std::vector<double> read = NumbersMember(object, name, {1, 1, 1, 1});
   Eigen::Vector4f color;
   for (int k = 0; k < 4; ++k) {
@@ -28,10 +28,10 @@ Eigen::Vector4f Factor(const json& object, const char* name) {
   return color;
 }
 
-const json kEmpty = json::object();
+const Json kEmpty = Json::object();
 
-const json& ObjectMember(const json& object, const char* name) {
-  const json* member = Member(object, name);
+const Json& ObjectMember(const Json& object, const char* name) {
+  const Json* member = core::FindMember(object, name);
   return member != nullptr && member->is_object() ? *member : kEmpty;
 }
 
@@ -51,8 +51,8 @@ const GltfMaterial& GltfMaterials::Find(std::optional<size_t> material) {
   const long long key = material ? static_cast<long long>(*material) : -1;
   const auto found = materials_.find(key);
   if (found != materials_.end()) return found->second;
-  const json& source = material ? document_.At("materials", *material) : kEmpty;
-  std::string name = TextMember(source, "name");
+  const Json& source = material ? document_.At("materials", *material) : kEmpty;
+  std::string name = core::TextMember(source, "name");
   if (name.empty()) name = material ? "material_" + std::to_string(*material) : "default";
   return materials_.emplace(key, Read(source, name)).first->second;
 }
@@ -81,16 +81,16 @@ int GltfMaterials::ReadImage(size_t image, bool opaque) {
   return entry->second;
 }
 
-void GltfMaterials::ReadTexture(const json& info, GltfMaterial* material, core::Material* target) {
+void GltfMaterials::ReadTexture(const Json& info, GltfMaterial* material, core::Material* target) {
   const std::optional<size_t> index = IndexMember(info, "index");
   if (!index) return;
-  const json& texture = document_.At("textures", *index);
+  const Json& texture = document_.At("textures", *index);
   std::optional<size_t> image = IndexMember(texture, "source");
-  if (const json* webp = Extension(texture, "EXT_texture_webp")) {
+  if (const Json* webp = Extension(texture, "EXT_texture_webp")) {
     if (const auto source = IndexMember(*webp, "source")) image = source;
   }
   if (!image) {
-    const json* basis = Extension(texture, "KHR_texture_basisu");
+    const Json* basis = Extension(texture, "KHR_texture_basisu");
     findings_.Add(core::Severity::kWarning, "texture-unreadable",
                   basis != nullptr ? "a texture is ignored: it is KTX2 (Basis Universal)"
                                    : "a texture is ignored: it names no supported image",
@@ -99,11 +99,11 @@ void GltfMaterials::ReadTexture(const json& info, GltfMaterial* material, core::
   }
   target->texture = ReadImage(*image, material->opaque);
   material->texcoord = IndexMember(info, "texCoord").value_or(0);
-  if (const json* transform = Extension(info, "KHR_texture_transform")) {
+  if (const Json* transform = Extension(info, "KHR_texture_transform")) {
     material->texcoord = IndexMember(*transform, "texCoord").value_or(material->texcoord);
     const std::vector<double> offset = NumbersMember(*transform, "offset", {0, 0});
     const std::vector<double> scale = NumbersMember(*transform, "scale", {1, 1});
-    const double angle = NumberMember(*transform, "rotation", 0.0);
+    const double angle = core::NumberMember(*transform, "rotation", 0.0);
     // The rotation is counter-clockwise in the image, whose v points down.
     Eigen::Matrix2d turn;
     turn << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
@@ -111,43 +111,43 @@ void GltfMaterials::ReadTexture(const json& info, GltfMaterial* material, core::
     material->uv_offset = Eigen::Vector2d(offset[0], offset[1]).cast<float>();
   }
   if (const auto sampler = IndexMember(texture, "sampler")) {
-    const json& wrap = document_.At("samplers", *sampler);
-    material->wraps =
-        NumberMember(wrap, "wrapS", 10497) == 10497 && NumberMember(wrap, "wrapT", 10497) == 10497;
+    const Json& wrap = document_.At("samplers", *sampler);
+    material->wraps = core::NumberMember(wrap, "wrapS", 10497) == 10497 &&
+                      core::NumberMember(wrap, "wrapT", 10497) == 10497;
   }
 }
 
-void GltfMaterials::SayUnreadMaps(const json& source) {
+void GltfMaterials::SayUnreadMaps(const Json& source) {
   std::string maps;
   const auto say = [&](bool there, const char* name) {
     if (there) maps += (maps.empty() ? "" : ", ") + std::string(name);
   };
-  const json& pbr = ObjectMember(source, "pbrMetallicRoughness");
-  say(Member(source, "normalTexture") != nullptr, "normals");
-  say(Member(pbr, "metallicRoughnessTexture") != nullptr, "metal and roughness");
-  say(Member(source, "occlusionTexture") != nullptr, "occlusion");
-  say(Member(source, "emissiveTexture") != nullptr, "emission");
+  const Json& pbr = ObjectMember(source, "pbrMetallicRoughness");
+  say(core::FindMember(source, "normalTexture") != nullptr, "normals");
+  say(core::FindMember(pbr, "metallicRoughnessTexture") != nullptr, "metal and roughness");
+  say(core::FindMember(source, "occlusionTexture") != nullptr, "occlusion");
+  say(core::FindMember(source, "emissiveTexture") != nullptr, "emission");
   if (maps.empty()) return;
   findings_.Add(core::Severity::kInfo, "gltf-maps-not-read",
                 "only base colour textures are read; ignored: " + maps,
                 "bake them into the base colour where they matter");
 }
 
-GltfMaterial GltfMaterials::Read(const json& source, const std::string& name) {
+GltfMaterial GltfMaterials::Read(const Json& source, const std::string& name) {
   GltfMaterial material;
   core::Material target;
   target.name = name;
-  const std::string mode = TextMember(source, "alphaMode");
+  const std::string mode = core::TextMember(source, "alphaMode");
   material.opaque = mode.empty() || mode == "OPAQUE";
-  const json& pbr = ObjectMember(source, "pbrMetallicRoughness");
-  const json* glossy = Extension(source, "KHR_materials_pbrSpecularGlossiness");
-  const json& colors = glossy != nullptr ? *glossy : pbr;
+  const Json& pbr = ObjectMember(source, "pbrMetallicRoughness");
+  const Json* glossy = Extension(source, "KHR_materials_pbrSpecularGlossiness");
+  const Json& colors = glossy != nullptr ? *glossy : pbr;
   target.base_color = Factor(colors, glossy != nullptr ? "diffuseFactor" : "baseColorFactor");
   ReadTexture(ObjectMember(colors, glossy != nullptr ? "diffuseTexture" : "baseColorTexture"),
               &material, &target);
   // A purely emissive surface is visible by its emission.
   const bool black = target.base_color.head<3>().maxCoeff() < 0.01f;
-  const json& glow = ObjectMember(source, "emissiveTexture");
+  const Json& glow = ObjectMember(source, "emissiveTexture");
   const std::vector<double> glow_factor = NumbersMember(source, "emissiveFactor", {0, 0, 0});
   if (black && *std::max_element(glow_factor.begin(), glow_factor.end()) > 0.0) {
     for (int k = 0; k < 3; ++k) {
@@ -163,7 +163,7 @@ GltfMaterial GltfMaterials::Read(const json& source, const std::string& name) {
   if (material.opaque) {
     target.base_color.w() = 1.0f;
   } else if (mode == "MASK" && target.texture < 0) {
-    const bool kept = target.base_color.w() >= NumberMember(source, "alphaCutoff", 0.5);
+    const bool kept = target.base_color.w() >= core::NumberMember(source, "alphaCutoff", 0.5);
     target.base_color.w() = kept ? 1.0f : 0.0f;
   }
   SayUnreadMaps(source);

@@ -34,10 +34,10 @@ class GltfMaterials {
   const GltfMaterial& Find(std::optional<size_t> material);
 
  private:
-  GltfMaterial Read(const nlohmann::json& source, const std::string& name);
-  void ReadTexture(const nlohmann::json& info, GltfMaterial* material, core::Material* target);
+  GltfMaterial Read(const core::Json& source, const std::string& name);
+  void ReadTexture(const core::Json& info, GltfMaterial* material, core::Material* target);
   int ReadImage(size_t image, bool opaque);
-  void SayUnreadMaps(const nlohmann::json& source);
+  void SayUnreadMaps(const core::Json& source);
 
   const GltfDocument& document_;
   core::TexturedMesh& mesh_;

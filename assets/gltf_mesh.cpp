@@ -11,30 +11,30 @@
 #include "core/error.h"
 
 namespace simwright::assets {
-using nlohmann::json;
+using core::Json;
 namespace {
 
 constexpr size_t kMaxNodes = 1'000'000;
 
-size_t SizeOf(const json& root, const char* list) {
-  const json* member = Member(root, list);
+size_t SizeOf(const Json& root, const char* list) {
+  const Json* member = core::FindMember(root, list);
   return member != nullptr && member->is_array() ? member->size() : 0;
 }
 
-std::vector<size_t> Indices(const json& object, const char* name) {
+std::vector<size_t> Indices(const Json& object, const char* name) {
   std::vector<size_t> indices;
-  const json* list = Member(object, name);
+  const Json* list = core::FindMember(object, name);
   if (list == nullptr || !list->is_array()) return indices;
-  for (const json& item : *list) {
+  for (const Json& item : *list) {
     if (item.is_number_unsigned()) indices.push_back(item.get<size_t>());
   }
   return indices;
 }
 
 // Returns parent_from_node.
-Eigen::Affine3d LocalTransform(const json& node) {
+Eigen::Affine3d LocalTransform(const Json& node) {
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-  const json* matrix = Member(node, "matrix");
+  const Json* matrix = core::FindMember(node, "matrix");
   if (matrix != nullptr) {
     const std::vector<double> m =
         NumbersMember(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
@@ -87,7 +87,7 @@ class GltfReader {
   void Walk(const std::vector<size_t>& roots);
   void AddNode(size_t index);
   std::vector<Eigen::Affine3d> JointTransforms(size_t skin) const;
-  std::vector<double> MorphWeights(const json& node, const json& mesh) const;
+  std::vector<double> MorphWeights(const Json& node, const Json& mesh) const;
   void Pose(const std::vector<Eigen::Affine3d>& joints, GltfPrimitive* primitive) const;
   void AddPrimitive(const GltfPrimitive& primitive, const GltfMaterial& material,
                     const Eigen::Affine3d& placed, int part);
@@ -103,7 +103,7 @@ class GltfReader {
 };
 
 void GltfReader::ReportUnreadContent() {
-  const json& root = document_.root();
+  const Json& root = document_.root();
   std::string unread;
   const auto say = [&](bool there, const std::string& name) {
     if (there) unread += (unread.empty() ? "" : ", ") + name;
@@ -125,7 +125,7 @@ void GltfReader::ReportUnreadContent() {
 }
 
 std::vector<size_t> GltfReader::Roots() {
-  const json& root = document_.root();
+  const Json& root = document_.root();
   const size_t scenes = SizeOf(root, "scenes");
   if (scenes > 0) {
     const size_t chosen = IndexMember(root, "scene").value_or(0);
@@ -160,7 +160,7 @@ void GltfReader::Walk(const std::vector<size_t>& roots) {
   while (!queue.empty()) {
     const auto [index, parent] = queue.back();
     queue.pop_back();
-    const json& node = document_.At("nodes", index);
+    const Json& node = document_.At("nodes", index);
     if (seen[index]) document_.Fail("nodes[" + std::to_string(index) + "] has two parents");
     seen[index] = true;
     world_[index] = parent * LocalTransform(node);
@@ -173,7 +173,7 @@ void GltfReader::Walk(const std::vector<size_t>& roots) {
 }
 
 std::vector<Eigen::Affine3d> GltfReader::JointTransforms(size_t skin) const {
-  const json& source = document_.At("skins", skin);
+  const Json& source = document_.At("skins", skin);
   const std::vector<size_t> joints = Indices(source, "joints");
   std::vector<float> inverse;
   if (const auto accessor = IndexMember(source, "inverseBindMatrices")) {
@@ -191,9 +191,9 @@ std::vector<Eigen::Affine3d> GltfReader::JointTransforms(size_t skin) const {
   return transforms;
 }
 
-std::vector<double> GltfReader::MorphWeights(const json& node, const json& mesh) const {
-  for (const json* holder : {&node, &mesh}) {
-    const json* weights = Member(*holder, "weights");
+std::vector<double> GltfReader::MorphWeights(const Json& node, const Json& mesh) const {
+  for (const Json* holder : {&node, &mesh}) {
+    const Json* weights = core::FindMember(*holder, "weights");
     if (weights == nullptr || !weights->is_array()) continue;
     return NumbersMember(*holder, "weights", std::vector<double>(weights->size(), 0.0));
   }
@@ -218,18 +218,18 @@ void GltfReader::Pose(const std::vector<Eigen::Affine3d>& joints, GltfPrimitive*
 }
 
 void GltfReader::AddNode(size_t index) {
-  const json& node = document_.At("nodes", index);
+  const Json& node = document_.At("nodes", index);
   const std::optional<size_t> mesh_index = IndexMember(node, "mesh");
   if (!mesh_index) return;
-  const json& mesh = document_.At("meshes", *mesh_index);
+  const Json& mesh = document_.At("meshes", *mesh_index);
   const std::optional<size_t> skin = IndexMember(node, "skin");
   std::vector<Eigen::Affine3d> joints;
   if (skin) joints = JointTransforms(*skin);
-  std::string name = TextMember(mesh, "name");
-  if (name.empty()) name = TextMember(node, "name");
-  const json* primitives = Member(mesh, "primitives");
+  std::string name = core::TextMember(mesh, "name");
+  if (name.empty()) name = core::TextMember(node, "name");
+  const Json* primitives = core::FindMember(mesh, "primitives");
   if (primitives == nullptr || !primitives->is_array()) document_.Fail("a mesh has no primitives");
-  for (const json& source : *primitives) {
+  for (const Json& source : *primitives) {
     const GltfMaterial material = materials_.Find(IndexMember(source, "material"));
     auto primitive =
         ReadGltfPrimitive(document_, source, material, MorphWeights(node, mesh), skin.has_value());

@@ -8,14 +8,14 @@
 #include "assets/gltf_draco.h"
 
 namespace simwright::assets {
-using nlohmann::json;
+using core::Json;
 namespace {
 
 class PrimitiveReader {
  public:
-  PrimitiveReader(const GltfDocument& document, const json& source, const GltfMaterial& material)
+  PrimitiveReader(const GltfDocument& document, const Json& source, const GltfMaterial& material)
       : document_(document), source_(source), material_(material) {
-    const json* attributes = Member(source, "attributes");
+    const Json* attributes = core::FindMember(source, "attributes");
     if (attributes == nullptr || !attributes->is_object()) {
       document_.Fail("a primitive has no attributes");
     }
@@ -45,17 +45,17 @@ class PrimitiveReader {
   void ReadTriangles(int mode);
 
   const GltfDocument& document_;
-  const json& source_;
+  const Json& source_;
   const GltfMaterial& material_;
-  const json* attributes_ = nullptr;
+  const Json* attributes_ = nullptr;
   std::optional<DracoMesh> draco_;
   GltfPrimitive result_;
 };
 
 void PrimitiveReader::Decompress() {
-  const json* draco = Extension(source_, "KHR_draco_mesh_compression");
+  const Json* draco = Extension(source_, "KHR_draco_mesh_compression");
   if (draco == nullptr) return;
-  const json* ids = Member(*draco, "attributes");
+  const Json* ids = core::FindMember(*draco, "attributes");
   const std::optional<size_t> view = IndexMember(*draco, "bufferView");
   if (ids == nullptr || !ids->is_object() || !view) {
     document_.Fail("a Draco compressed primitive lacks its data");
@@ -95,7 +95,7 @@ void PrimitiveReader::ReadPositions(const std::vector<double>& weights) {
 }
 
 void PrimitiveReader::Morph(const std::vector<double>& weights) {
-  const json* targets = Member(source_, "targets");
+  const Json* targets = core::FindMember(source_, "targets");
   if (targets == nullptr || !targets->is_array()) return;
   for (size_t i = 0; i < std::min(targets->size(), weights.size()); ++i) {
     const std::optional<size_t> accessor = IndexMember((*targets)[i], "POSITION");
@@ -198,7 +198,7 @@ void PrimitiveReader::ReadTriangles(int mode) {
 
 }  // namespace
 
-std::optional<GltfPrimitive> ReadGltfPrimitive(const GltfDocument& document, const json& source,
+std::optional<GltfPrimitive> ReadGltfPrimitive(const GltfDocument& document, const Json& source,
                                                const GltfMaterial& material,
                                                const std::vector<double>& weights, bool skinned) {
   return PrimitiveReader(document, source, material).Read(weights, skinned);

@@ -27,7 +27,7 @@ struct GltfPrimitive {
 // Reads a primitive with the morph target `weights`. Returns nothing if it has no triangles
 // (points, lines).
 std::optional<GltfPrimitive> ReadGltfPrimitive(const GltfDocument& document,
-                                               const nlohmann::json& source,
+                                               const core::Json& source,
                                                const GltfMaterial& material,
                                                const std::vector<double>& weights, bool skinned);
 

@@ -7,12 +7,11 @@
 #include <sstream>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "assets/articulated_writer.h"
 #include "assets/urdf_meshes.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 
 namespace simwright::assets {
 namespace fs = std::filesystem;
@@ -44,9 +43,10 @@ std::string CategoryIn(const fs::path& folder, core::Findings* findings) {
        {std::pair{"asset.json", "category"}, {"meta.json", "model_cat"}}) {
     const fs::path path = FirstExisting(folder, {file});
     if (path.empty()) continue;
-    const auto json = nlohmann::json::parse(core::ReadFile(path, kMostBytes), nullptr, false);
-    if (json.is_object() && json.contains(key) && json.at(key).is_string()) {
-      std::string category = json.at(key).get<std::string>();
+    const auto json = core::TryParseJson(core::ReadFile(path, kMostBytes));
+    const core::Json* found = json ? core::FindMember(*json, key) : nullptr;
+    if (found != nullptr && found->is_string()) {
+      std::string category = found->get<std::string>();
       std::transform(category.begin(), category.end(), category.begin(), ::tolower);
       return category;
     }

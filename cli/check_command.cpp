@@ -2,12 +2,11 @@
 #include <cstdio>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "assets/asset_folder.h"
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "core/error.h"
+#include "core/json.h"
 #include "validation/check.h"
 #include "validation/check_folder.h"
 
@@ -48,11 +47,11 @@ void CheckInput(const std::filesystem::path& input, const CheckFlags& flags,
 }
 
 int PrintReportsJson(const std::vector<validation::CheckReport>& reports, bool passed) {
-  nlohmann::ordered_json json = {{"passed", passed}};
-  json["reports"] = nlohmann::ordered_json::array();
+  core::OrderedJson json = {{"passed", passed}};
+  json["reports"] = core::OrderedJson::array();
   core::Findings findings;
   for (const validation::CheckReport& report : reports) {
-    json["reports"].push_back(nlohmann::ordered_json::parse(validation::CheckJson(report)));
+    json["reports"].push_back(core::ParseOrderedJson(validation::CheckJson(report), "the report"));
     const core::Findings rows = validation::NotableResults(report);
     findings.insert(findings.end(), rows.begin(), rows.end());
   }

@@ -1,9 +1,8 @@
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "workflows/doctor.h"
 
@@ -29,7 +28,7 @@ void AddDoctor(CLI::App* app, CommonOptions* common, Run* run) {
                                                                    : "good",
                     finding.code.c_str(), finding.sentence.c_str(), remedy.c_str());
       }
-      if (common->json) PrintJson(nlohmann::ordered_json{{"passed", passed}}, findings);
+      if (common->json) PrintJson(core::OrderedJson{{"passed", passed}}, findings);
       return passed ? 0 : 1;
     };
   });
@@ -42,8 +41,7 @@ void AddVersion(CLI::App* app, CommonOptions* common, Run* run) {
   command->callback([common, run] {
     *run = [common] {
       if (common->json) {
-        PrintJson(nlohmann::ordered_json{{"program", "simwright"}, {"version", SIMWRIGHT_VERSION}},
-                  {});
+        PrintJson(core::OrderedJson{{"program", "simwright"}, {"version", SIMWRIGHT_VERSION}}, {});
         return 0;
       }
       std::printf("simwright %s\n", SIMWRIGHT_VERSION);

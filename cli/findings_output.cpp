@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "core/finding_json.h"
 #include "core/finding_text.h"
+#include "core/json.h"
 
 namespace simwright::cli {
 
@@ -42,15 +41,14 @@ void PrintWarnings(const core::Findings& findings, const CommonOptions& common, 
   PrintFindings(kept, common);
 }
 
-void PrintJson(nlohmann::ordered_json object, const core::Findings& findings) {
+void PrintJson(core::OrderedJson object, const core::Findings& findings) {
   object["findings"] = core::FindingsJson(findings);
   // Names and answers may contain invalid UTF-8.
-  std::printf("%s\n",
-              object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  std::fputs(core::JsonText(object, core::InvalidUtf8::kReplace).c_str(), stdout);
 }
 
 void PrintJson(const std::string& object, const core::Findings& findings) {
-  PrintJson(nlohmann::ordered_json::parse(object), findings);
+  PrintJson(core::ParseOrderedJson(object, "the result"), findings);
 }
 
 }  // namespace simwright::cli

@@ -2,10 +2,9 @@
 
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "cli/command.h"
 #include "core/finding.h"
+#include "core/json.h"
 
 namespace simwright::cli {
 
@@ -22,7 +21,7 @@ void PrintFindings(const core::Findings& findings, const CommonOptions& common);
 void PrintWarnings(const core::Findings& findings, const CommonOptions& common, int* notes);
 
 // Prints a command's --json result on stdout: one object with the array `findings`.
-void PrintJson(nlohmann::ordered_json object, const core::Findings& findings);
+void PrintJson(core::OrderedJson object, const core::Findings& findings);
 // Prints the text of a JSON object likewise.
 void PrintJson(const std::string& object, const core::Findings& findings);
 

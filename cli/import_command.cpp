@@ -2,13 +2,12 @@
 #include <cstdio>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/number_validators.h"
 #include "cli/stated_options.h"
 #include "core/error.h"
+#include "core/json.h"
 #include "physics_params/size_plausibility.h"
 #include "workflows/import/import.h"
 
@@ -34,8 +33,8 @@ core::Findings Placed(core::Findings findings, const std::string& name) {
   return findings;
 }
 
-nlohmann::ordered_json ImportToJson(const workflows::ImportOutcome& outcome) {
-  nlohmann::ordered_json json;
+core::OrderedJson ImportToJson(const workflows::ImportOutcome& outcome) {
+  core::OrderedJson json;
   json["name"] = outcome.name;
   json["folder"] = outcome.folder.string();
   if (!outcome.refusal.empty()) json["refused"] = outcome.refusal;
@@ -69,8 +68,8 @@ int CountRefused(const std::vector<workflows::ImportOutcome>& outcomes) {
 }
 
 int PrintOutcomesJson(const std::vector<workflows::ImportOutcome>& outcomes) {
-  nlohmann::ordered_json json;
-  json["assets"] = nlohmann::ordered_json::array();
+  core::OrderedJson json;
+  json["assets"] = core::OrderedJson::array();
   core::Findings all;
   for (const workflows::ImportOutcome& outcome : outcomes) {
     json["assets"].push_back(ImportToJson(outcome));

@@ -1,13 +1,12 @@
 #include <cstdio>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/number_validators.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "core/json.h"
 #include "library/articulated/articulated_kinds.h"
 #include "library/rigid/rigid_kinds.h"
 #include "workflows/library/library.h"
@@ -23,7 +22,7 @@ struct LibraryFlags {
 
 template <typename Kinds>
 void ListKinds(const Kinds& kinds, const char* heading, bool rigid, bool as_json,
-               nlohmann::ordered_json* json) {
+               core::OrderedJson* json) {
   if (!as_json) std::printf("%s:\n", heading);
   for (const auto& kind : kinds) {
     if (as_json) {
@@ -35,16 +34,16 @@ void ListKinds(const Kinds& kinds, const char* heading, bool rigid, bool as_json
 }
 
 int ListKinds(bool as_json) {
-  nlohmann::ordered_json kinds = nlohmann::ordered_json::array();
+  core::OrderedJson kinds = core::OrderedJson::array();
   ListKinds(library::Kinds(), "articulated", false, as_json, &kinds);
   ListKinds(library::RigidKinds(), "\nrigid", true, as_json, &kinds);
   ListKinds(library::FurnitureKinds(), "\nfurniture", true, as_json, &kinds);
-  if (as_json) PrintJson(nlohmann::ordered_json{{"kinds", kinds}}, {});
+  if (as_json) PrintJson(core::OrderedJson{{"kinds", kinds}}, {});
   return 0;
 }
 
-nlohmann::ordered_json KindToJson(const workflows::LibraryOutcome& outcome) {
-  nlohmann::ordered_json json;
+core::OrderedJson KindToJson(const workflows::LibraryOutcome& outcome) {
+  core::OrderedJson json;
   json["name"] = outcome.name;
   json["kind"] = outcome.kind;
   json["folder"] = outcome.folder.string();
@@ -90,8 +89,8 @@ int Library(LibraryFlags flags, const CommonOptions& common) {
   int refused = 0;
   int notes = 0;  // about the kinds, the same in every run
   core::Findings findings;
-  nlohmann::ordered_json json;
-  json["assets"] = nlohmann::ordered_json::array();
+  core::OrderedJson json;
+  json["assets"] = core::OrderedJson::array();
   for (const workflows::LibraryOutcome& outcome : outcomes) {
     refused += !outcome.refusal.empty();
     findings.insert(findings.end(), outcome.findings.begin(), outcome.findings.end());

@@ -1,13 +1,12 @@
 #include <cstdio>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/number_validators.h"
 #include "cli/stated_options.h"
 #include "core/error.h"
+#include "core/json.h"
 #include "workflows/lift/lift.h"
 
 namespace simwright::cli {
@@ -25,7 +24,7 @@ struct LiftFlags {
 class LiftPrinter {
  public:
   explicit LiftPrinter(const CommonOptions& common) : common_(common) {
-    json_["assets"] = nlohmann::ordered_json::array();
+    json_["assets"] = core::OrderedJson::array();
   }
   void Print(const workflows::LiftOutcome& outcome);
   void Finish() {
@@ -34,7 +33,7 @@ class LiftPrinter {
 
  private:
   const CommonOptions& common_;
-  nlohmann::ordered_json json_;
+  core::OrderedJson json_;
   core::Findings findings_;
 };
 

@@ -8,13 +8,12 @@
 #include <new>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/usage.h"
 #include "core/error.h"
 #include "core/finding_text.h"
+#include "core/json.h"
 #include "core/parallel.h"
 
 namespace {
@@ -22,7 +21,8 @@ namespace {
 // Prints an error as a finding: on stderr, and with --json also as the result.
 void PrintError(const simwright::core::Finding& error, bool json) {
   std::fputs(simwright::core::FindingText(error, simwright::cli::LineWidth()).c_str(), stderr);
-  if (json) simwright::cli::PrintJson(nlohmann::ordered_json{{"error", error.sentence}}, {error});
+  if (json)
+    simwright::cli::PrintJson(simwright::core::OrderedJson{{"error", error.sentence}}, {error});
 }
 
 int Main(int argc, char** argv) {

@@ -1,14 +1,13 @@
 #include <cstdio>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "assets/asset_folder.h"
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/language_model_options.h"
 #include "core/error.h"
 #include "core/finding.h"
+#include "core/json.h"
 #include "physics_params/category_estimate.h"
 #include "physics_params/category_resolution.h"
 #include "physics_params/physical_parameters.h"
@@ -32,13 +31,13 @@ struct Result {
   std::string usage;  // one line; empty if no model was queried
 };
 
-nlohmann::ordered_json PhysicsToJson(const Estimate& e) {
+core::OrderedJson PhysicsToJson(const Estimate& e) {
   return {{"min", e.min}, {"max", e.max}, {"sample", e.sample}};
 }
 
 void PrintResultJson(const Result& result) {
   const PhysicalParameters& p = result.parameters;
-  nlohmann::ordered_json json;
+  core::OrderedJson json;
   json["category"] = p.category;
   json["resolution"] = p.resolution;
   json["length_m"] = PhysicsToJson(p.length);

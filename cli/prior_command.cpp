@@ -1,7 +1,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cli/command.h"
@@ -9,6 +8,7 @@
 #include "cli/number_validators.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
+#include "core/json.h"
 #include "workflows/priors/prior_training.h"
 
 namespace simwright::cli {
@@ -35,9 +35,9 @@ void PrintPriorLine(const workflows::TrainedPrior& prior) {
 }
 
 void PrintTrainedJson(const std::vector<workflows::TrainedPrior>& trained) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  core::OrderedJson json = core::OrderedJson::array();
   for (const workflows::TrainedPrior& prior : trained) {
-    nlohmann::ordered_json entry;
+    core::OrderedJson entry;
     entry["prior"] = prior.name;
     entry["weights"] = prior.weights.string();
     entry["steps"] = prior.report.step;
@@ -46,7 +46,7 @@ void PrintTrainedJson(const std::vector<workflows::TrainedPrior>& trained) {
     entry["seconds"] = prior.report.seconds;
     json.push_back(entry);
   }
-  PrintJson(nlohmann::ordered_json{{"priors", json}}, {});
+  PrintJson(core::OrderedJson{{"priors", json}}, {});
 }
 
 // Returns true if a training has left a state for --resume, or final weights.

@@ -1,14 +1,13 @@
 #include <cstdio>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/category_folders.h"
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/scene_export_command.h"
 #include "cli/scene_model_commands.h"
 #include "core/error.h"
+#include "core/json.h"
 #include "scene/scene_types/scene_types.h"
 #include "workflows/scenes/scene_generation.h"
 
@@ -22,12 +21,12 @@ struct GenerateFlags {
 };
 
 int ListSceneTypes(const CommonOptions& common) {
-  nlohmann::ordered_json types = nlohmann::ordered_json::array();
+  core::OrderedJson types = core::OrderedJson::array();
   for (const scene::SceneType& type : scene::SceneTypes()) {
     types.push_back({{"type", type.name}, {"what", type.what}});
     if (!common.json) std::printf("%-18s %s\n", type.name.c_str(), type.what.c_str());
   }
-  if (common.json) PrintJson(nlohmann::ordered_json{{"types", types}}, {});
+  if (common.json) PrintJson(core::OrderedJson{{"types", types}}, {});
   return 0;
 }
 

@@ -1,10 +1,9 @@
 #include <cstdio>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/findings_output.h"
 #include "cli/scene_model_commands.h"
+#include "core/json.h"
 #include "workflows/scenes/scene_evaluation.h"
 #include "workflows/scenes/scene_feature_training.h"
 
@@ -29,13 +28,13 @@ int TrainFeatures(workflows::SceneFeatureTrainingRequest request, const CommonOp
   core::Progress progress(common.ProgressStyle());
   const scene::FeatureTrainingReport report = workflows::TrainSceneFeatures(request, &progress);
   if (common.json) {
-    const nlohmann::ordered_json json = {{"weights", request.weights.string()},
-                                         {"parameters", report.parameters},
-                                         {"pictures", report.pictures},
-                                         {"held_out", report.held_out},
-                                         {"error", report.error},
-                                         {"error_of_the_mean", report.error_of_the_mean},
-                                         {"seconds", report.seconds}};
+    const core::OrderedJson json = {{"weights", request.weights.string()},
+                                    {"parameters", report.parameters},
+                                    {"pictures", report.pictures},
+                                    {"held_out", report.held_out},
+                                    {"error", report.error},
+                                    {"error_of_the_mean", report.error_of_the_mean},
+                                    {"seconds", report.seconds}};
     PrintJson(json, {});
     return 0;
   }

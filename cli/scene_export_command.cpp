@@ -3,11 +3,10 @@
 #include <cstdio>
 #include <memory>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/findings_output.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "workflows/scenes/scene_export.h"
 
 namespace simwright::cli {
@@ -39,7 +38,7 @@ int View(const ViewFlags& flags, const CommonOptions& common) {
   core::WritePng(flags.output,
                  workflows::SceneView(flags.dataset, flags.assets, flags.scene, flags.size));
   if (common.json) {
-    PrintJson(nlohmann::ordered_json{{"picture", flags.output.string()}}, {});
+    PrintJson(core::OrderedJson{{"picture", flags.output.string()}}, {});
   } else if (!common.quiet) {
     std::printf("picture: %s\n", flags.output.c_str());
   }

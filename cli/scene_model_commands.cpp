@@ -4,12 +4,11 @@
 #include <memory>
 #include <optional>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/category_folders.h"
 #include "cli/findings_output.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
+#include "core/json.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/model/training.h"
 #include "workflows/scenes/scene_sampling.h"
@@ -36,8 +35,8 @@ scene::SceneModelOptions ModelOf(const TrainFlags& flags) {
   return model;
 }
 
-nlohmann::ordered_json ReportJson(const scene::SceneTrainingReport& report) {
-  nlohmann::ordered_json json;
+core::OrderedJson ReportJson(const scene::SceneTrainingReport& report) {
+  core::OrderedJson json;
   json["weights"] = report.weights.string();
   json["parameters"] = report.parameters;
   json["training_scenes"] = report.training_scenes;

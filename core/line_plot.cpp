@@ -4,7 +4,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/text_template.h"
+
 namespace simwright::core {
+namespace data {
+
+std::string_view line_plot_svg();
+
+}  // namespace data
 namespace {
 
 constexpr double kWidth = 760.0;
@@ -15,21 +22,6 @@ std::string Format(const char* format, double a, double b = 0.0, double c = 0.0)
   char buffer[256];
   std::snprintf(buffer, sizeof(buffer), format, a, b, c);
   return buffer;
-}
-
-std::string Escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else
-      out += c;
-  }
-  return out;
 }
 
 // Returns 1, 2 or 5 times a power of ten, so that about five steps span the range.
@@ -67,20 +59,18 @@ std::string Points(const PlotPanel& panel, const PlotPoints& points, double sens
 
 std::string PlotText(double x, double y, const std::string& anchor, const std::string& text) {
   return Format("<text x=\"%.1f\" y=\"%.1f\"", x, y) + " text-anchor=\"" + anchor + "\">" +
-         Escaped(text) + "</text>\n";
+         EscapedMarkup(text) + "</text>\n";
 }
 
 std::string PlotPage(const std::string& title, const std::string& styles, const std::string& body,
                      double height) {
-  return Format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" ", kWidth,
-                height) +
-         "font-family=\"sans-serif\" font-size=\"12\" fill=\"#333\">\n"
-         "<style>.grid{stroke:#ddd;fill:none}" +
-         styles +
-         "</style>\n"
-         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
-         "<g font-size=\"15\">" + PlotText(0.5 * (kPlotLeft + kPlotRight), 32.0, "middle", title) +
-         "</g>\n" + body + "</svg>\n";
+  return FillTemplate(
+      data::line_plot_svg(),
+      {{"width", Format("%.0f", kWidth)},
+       {"height", Format("%.0f", height)},
+       {"styles", Markup{styles}},
+       {"title", Markup{PlotText(0.5 * (kPlotLeft + kPlotRight), 32.0, "middle", title)}},
+       {"body", Markup{body}}});
 }
 
 std::string PlotAxes(const PlotPanel& panel, const std::string& label) {

@@ -3,19 +3,16 @@
 #include <cstdint>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "core/content_hash.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "llm/answer_json.h"
-#include "llm/json_text.h"
 #include "llm/request_key.h"
 
 namespace simwright::llm {
 namespace {
 namespace fs = std::filesystem;
-using CacheJson = nlohmann::json;
 
 constexpr std::uint64_t kLargestEntry = 64u << 20;  // bytes
 
@@ -34,9 +31,9 @@ CachingChatModel::CachingChatModel(std::unique_ptr<ChatModel> inner, const fs::p
 
 ChatAnswer CachingChatModel::Ask(const ChatRequest& request, core::Progress* progress) {
   RequireValid(request);
-  const CacheJson content = {
+  const core::Json content = {
       {"model", inner_->name()}, {"server", identity_}, {"request", CanonicalRequest(request)}};
-  const std::string text = content.dump(-1, ' ', false, CacheJson::error_handler_t::replace);
+  const std::string text = core::JsonLine(content, core::InvalidUtf8::kReplace);
   const fs::path file = folder_ / (core::ContentHash(text) + ".json");
   ChatAnswer answer;
   if (Read(file, text, &answer)) {
@@ -53,11 +50,12 @@ bool CachingChatModel::Read(const fs::path& file, const std::string& content, Ch
   if (!fs::exists(file, code)) return false;
   std::string fault = "is not a cache entry";
   try {
-    const CacheJson json = ParseJson(core::ReadFile(file, kLargestEntry));
-    if (json.is_object() && json.contains("content") && json.contains("answer")) {
+    const core::Json json = core::ParseJson(core::ReadFile(file, kLargestEntry), "the entry");
+    const core::Json* entry = core::FindMember(json, "answer");
+    if (entry != nullptr && json.contains("content")) {
       // Another request has the same hash: ask again and replace this entry.
       if (json["content"] != content) return false;
-      if (AnswerFromJson(json["answer"], answer)) return true;
+      if (AnswerFromJson(*entry, answer)) return true;
     }
   } catch (const core::Error& error) {
     fault = error.what();
@@ -69,9 +67,9 @@ bool CachingChatModel::Read(const fs::path& file, const std::string& content, Ch
 
 void CachingChatModel::Write(const fs::path& file, const std::string& content,
                              const ChatAnswer& answer) {
-  const nlohmann::ordered_json json = {{"content", content}, {"answer", AnswerToJson(answer)}};
+  const core::OrderedJson json = {{"content", content}, {"answer", AnswerToJson(answer)}};
   try {
-    core::WriteFile(file, json.dump(1, ' ', false, CacheJson::error_handler_t::replace) + "\n");
+    core::WriteFile(file, core::JsonText(json, core::InvalidUtf8::kReplace, 1));
   } catch (const core::Error& error) {
     // The answer exists and may have cost money: do not lose it.
     findings_.push_back({"llm-cache-not-written", core::Severity::kWarning, file.string(),

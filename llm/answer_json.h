@@ -1,15 +1,14 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
+#include "core/json.h"
 #include "llm/chat_model.h"
 
 namespace simwright::llm {
 
 // Returns an answer's JSON form in cache and transcript: text, finish_reason, tokens.
-nlohmann::ordered_json AnswerToJson(const ChatAnswer& answer);
+core::OrderedJson AnswerToJson(const ChatAnswer& answer);
 
 // Parses an answer. Returns false and leaves `answer` unchanged if `json` is not such an object.
-bool AnswerFromJson(const nlohmann::json& json, ChatAnswer* answer);
+bool AnswerFromJson(const core::Json& json, ChatAnswer* answer);
 
 }  // namespace simwright::llm

@@ -1,25 +1,12 @@
 #include "llm/json_text.h"
 
+#include <optional>
 #include <string>
-
-#include <nlohmann/json.hpp>
 
 namespace simwright::llm {
 namespace {
 
-using TextJson = nlohmann::json;
-
-constexpr int kDeepest = 64;        // levels
 constexpr int kMostFailures = 200;  // brackets that begin no JSON, so that time stays linear
-
-TextJson ParseBounded(std::string_view text, bool comments, bool* too_deep) {
-  const auto bounded = [too_deep](int depth, TextJson::parse_event_t, TextJson&) {
-    *too_deep = *too_deep || depth >= kDeepest;
-    return depth < kDeepest;
-  };
-  TextJson json = TextJson::parse(text, bounded, false, comments);
-  return *too_deep ? TextJson(TextJson::value_t::discarded) : json;
-}
 
 // Returns the length of the bracketed text at the start of `text`, respecting quotes; 0 if
 // unclosed.
@@ -61,24 +48,17 @@ std::string WithoutTrailingCommas(std::string_view text) {
 
 }  // namespace
 
-TextJson ParseJson(std::string_view text, bool* too_deep) {
-  bool deep = false;
-  TextJson json = ParseBounded(text, false, &deep);
-  if (too_deep != nullptr) *too_deep = deep;
-  return json;
-}
-
-std::vector<TextJson> JsonInText(std::string_view text) {
-  std::vector<TextJson> found;
+std::vector<core::Json> JsonInText(std::string_view text) {
+  std::vector<core::Json> found;
   int failures = 0;
   for (std::size_t at = text.find_first_of("{["); at != std::string_view::npos;
        at = text.find_first_of("{[", at)) {
     const std::size_t length = BracketedLength(text.substr(at));
     if (length > 0) {
-      bool too_deep = false;
-      TextJson json = ParseBounded(WithoutTrailingCommas(text.substr(at, length)), true, &too_deep);
-      if (!json.is_discarded()) {
-        found.push_back(std::move(json));
+      std::optional<core::Json> json =
+          core::TryParseJson(WithoutTrailingCommas(text.substr(at, length)), true);
+      if (json) {
+        found.push_back(std::move(*json));
         at += length;
         continue;
       }

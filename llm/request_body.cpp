@@ -3,22 +3,21 @@
 #include <algorithm>
 #include <cctype>
 
-#include <nlohmann/json.hpp>
-
 #include "core/base64.h"
+#include "core/json.h"
 
 namespace simwright::llm {
 namespace {
 
-using RequestJson = nlohmann::ordered_json;
+using core::OrderedJson;
 
-RequestJson MessageJson(const ChatMessage& message) {
-  RequestJson json = {{"role", RoleName(message.role)}};
+OrderedJson MessageJson(const ChatMessage& message) {
+  OrderedJson json = {{"role", RoleName(message.role)}};
   if (message.images.empty()) {
     json["content"] = message.text;
     return json;
   }
-  RequestJson parts = RequestJson::array();
+  OrderedJson parts = OrderedJson::array();
   if (!message.text.empty()) parts.push_back({{"type", "text"}, {"text", message.text}});
   for (const ChatImage& image : message.images) {
     const std::string url = "data:" + image.mime_type + ";base64," + core::Base64(image.bytes);
@@ -38,9 +37,9 @@ std::string LowerCaseName(std::string text) {
 
 std::string RequestBody(const ChatRequest& request, const std::string& model,
                         const Dialect& dialect) {
-  RequestJson json;
+  OrderedJson json;
   if (!model.empty()) json["model"] = model;
-  json["messages"] = RequestJson::array();
+  json["messages"] = OrderedJson::array();
   for (const ChatMessage& message : request.messages) {
     json["messages"].push_back(MessageJson(message));
   }
@@ -52,7 +51,7 @@ std::string RequestBody(const ChatRequest& request, const std::string& model,
   if (request.seed && dialect.seed) json["seed"] = *request.seed;
   if (request.json && dialect.json_mode) json["response_format"] = {{"type", "json_object"}};
   json["stream"] = false;
-  return json.dump(-1, ' ', false, RequestJson::error_handler_t::replace);
+  return core::JsonLine(json, core::InvalidUtf8::kReplace);
 }
 
 std::string Narrow(const std::string& message, const ChatRequest& request, Dialect* dialect) {

@@ -1,24 +1,23 @@
 #include "llm/request_key.h"
 
-#include <nlohmann/json.hpp>
-
 #include "core/content_hash.h"
+#include "core/json.h"
 #include "llm/redaction.h"
 
 namespace simwright::llm {
 namespace {
 
-using KeyJson = nlohmann::json;
+using core::Json;
 
 constexpr std::size_t kWordsShown = 60;  // bytes
 
 }  // namespace
 
 std::string CanonicalRequest(const ChatRequest& request) {
-  KeyJson json;
-  json["messages"] = KeyJson::array();
+  Json json;
+  json["messages"] = Json::array();
   for (const ChatMessage& message : request.messages) {
-    KeyJson entry = {{"role", RoleName(message.role)}, {"text", message.text}};
+    Json entry = {{"role", RoleName(message.role)}, {"text", message.text}};
     for (const ChatImage& image : message.images) {
       entry["images"].push_back({{"type", image.mime_type},
                                  {"bytes", image.bytes.size()},
@@ -30,7 +29,7 @@ std::string CanonicalRequest(const ChatRequest& request) {
   if (request.max_tokens) json["max_tokens"] = *request.max_tokens;
   if (request.seed) json["seed"] = *request.seed;
   if (request.json) json["json"] = true;
-  return json.dump(-1, ' ', false, KeyJson::error_handler_t::replace);
+  return core::JsonLine(json, core::InvalidUtf8::kReplace);
 }
 
 std::string FirstWords(const ChatRequest& request) {

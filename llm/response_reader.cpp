@@ -2,41 +2,27 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
-#include <nlohmann/json.hpp>
-
-#include "llm/json_text.h"
+#include "core/json.h"
 
 namespace simwright::llm {
 namespace {
 
-using ResponseJson = nlohmann::json;
+using core::Json;
 
-const ResponseJson* Member(const ResponseJson& object, const char* name) {
-  if (!object.is_object()) return nullptr;
-  const auto found = object.find(name);
-  return found == object.end() ? nullptr : &*found;
-}
-
-std::string StringMember(const ResponseJson& object, const char* name) {
-  const ResponseJson* member = Member(object, name);
-  return member != nullptr && member->is_string() ? member->get<std::string>() : "";
-}
-
-std::int64_t CountMember(const ResponseJson* object, const char* name) {
-  const ResponseJson* member = object == nullptr ? nullptr : Member(*object, name);
-  if (member == nullptr || !member->is_number()) return 0;
-  const double count = member->get<double>();
+std::int64_t CountMember(const Json* object, const char* name) {
+  const double count = object == nullptr ? 0.0 : core::NumberMember(*object, name, 0.0);
   constexpr double kMost = 1e12;  // no model reads more; larger values are not counts
   return count >= 0.0 && count <= kMost ? static_cast<std::int64_t>(count) : 0;
 }
 
 // Returns a string, or the texts of an array of parts.
-std::string ContentText(const ResponseJson& content) {
+std::string ContentText(const Json& content) {
   if (content.is_string()) return content.get<std::string>();
   std::string text;
   if (content.is_array()) {
-    for (const ResponseJson& part : content) text += StringMember(part, "text");
+    for (const Json& part : content) text += core::TextMember(part, "text");
   }
   return text;
 }
@@ -49,27 +35,27 @@ ReadResponse NoResponse(const std::string& message) {
 
 // Reads {"error": {"message", "type", "code"}}, {"error": "text"}, and vLLM's {"object": "error",
 // ...}.
-ReadResponse ErrorResponse(const ResponseJson& error) {
+ReadResponse ErrorResponse(const Json& error) {
   ReadResponse response;
   response.kind = ReadResponse::Kind::kError;
   if (error.is_string()) response.message = error.get<std::string>();
-  response.message += StringMember(error, "message");
+  response.message += core::TextMember(error, "message");
   if (response.message.empty()) {
-    response.message = error.dump(-1, ' ', false, ResponseJson::error_handler_t::replace);
+    response.message = core::JsonLine(error, core::InvalidUtf8::kReplace);
   }
-  response.error_code = StringMember(error, "code");
-  if (response.error_code.empty()) response.error_code = StringMember(error, "type");
+  response.error_code = core::TextMember(error, "code");
+  if (response.error_code.empty()) response.error_code = core::TextMember(error, "type");
   response.error_status =
       static_cast<int>(std::min<std::int64_t>(CountMember(&error, "code"), 999));
   return response;
 }
 
-ReadResponse FromChoice(const ResponseJson& json, const ResponseJson& choice) {
+ReadResponse FromChoice(const Json& json, const Json& choice) {
   ReadResponse response;
-  const ResponseJson* message = Member(choice, "message");
-  const ResponseJson* content =
-      message == nullptr ? Member(choice, "text") : Member(*message, "content");
-  const std::string refusal = message == nullptr ? "" : StringMember(*message, "refusal");
+  const Json* message = core::FindMember(choice, "message");
+  const Json* content =
+      message == nullptr ? core::FindMember(choice, "text") : core::FindMember(*message, "content");
+  const std::string refusal = message == nullptr ? "" : core::TextMember(*message, "refusal");
   if (!refusal.empty()) {
     response.kind = ReadResponse::Kind::kError;
     response.message = "the model refuses: " + refusal;
@@ -78,8 +64,8 @@ ReadResponse FromChoice(const ResponseJson& json, const ResponseJson& choice) {
   if (content == nullptr) return NoResponse("the answer's first choice has no content");
   response.kind = ReadResponse::Kind::kAnswer;
   response.answer.text = WithoutReasoning(ContentText(*content));
-  response.answer.finish_reason = StringMember(choice, "finish_reason");
-  const ResponseJson* usage = Member(json, "usage");
+  response.answer.finish_reason = core::TextMember(choice, "finish_reason");
+  const Json* usage = core::FindMember(json, "usage");
   response.answer.tokens.input = CountMember(usage, "prompt_tokens");
   response.answer.tokens.output = CountMember(usage, "completion_tokens");
   return response;
@@ -95,9 +81,9 @@ ReadResponse ReadChatResponse(std::string_view body) {
     return empty;
   }
   bool too_deep = false;
-  const ResponseJson json = ParseJson(body, &too_deep);
+  const std::optional<Json> parsed = core::TryParseJson(body, false, &too_deep);
   if (too_deep) return NoResponse("the answer is nested deeper than 64 levels");
-  if (json.is_discarded()) {
+  if (!parsed) {
     if (body[first] == '<') return NoResponse("the answer is HTML, not JSON");
     ReadResponse response = NoResponse("the answer is not JSON");
     if (body[first] == '{') {
@@ -106,17 +92,18 @@ ReadResponse ReadChatResponse(std::string_view body) {
     }
     return response;
   }
-  const ResponseJson* error = Member(json, "error");
+  const Json& json = *parsed;
+  const Json* error = core::FindMember(json, "error");
   if (error != nullptr && !error->is_null()) return ErrorResponse(*error);
-  if (StringMember(json, "object") == "error") return ErrorResponse(json);
-  const ResponseJson* choices = Member(json, "choices");
+  if (core::TextMember(json, "object") == "error") return ErrorResponse(json);
+  const Json* choices = core::FindMember(json, "choices");
   if (choices == nullptr || !choices->is_array() || choices->empty()) {
     ReadResponse response = NoResponse("the answer is JSON without choices");
     // FastAPI servers (vLLM) report errors in "detail".
-    const ResponseJson* detail = Member(json, "detail");
+    const Json* detail = core::FindMember(json, "detail");
     if (detail != nullptr) {
       response.kind = ReadResponse::Kind::kError;
-      response.message = detail->dump(-1, ' ', false, ResponseJson::error_handler_t::replace);
+      response.message = core::JsonLine(*detail, core::InvalidUtf8::kReplace);
     }
     return response;
   }

@@ -3,68 +3,57 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "core/content_hash.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "llm/answer_json.h"
-#include "llm/json_text.h"
 #include "llm/redaction.h"
 #include "llm/request_key.h"
 
 namespace simwright::llm {
 namespace {
 namespace fs = std::filesystem;
-using TranscriptJson = nlohmann::json;
+using core::Json;
 
 constexpr const char* kFormat = "simwright-llm";
 constexpr int kVersion = 1;
 constexpr std::uint64_t kLargestTranscript = 256u << 20;  // bytes
 constexpr std::size_t kShortHash = 8;                     // digits shown to a person
 
-template <typename J>
-std::string Dump(const J& json) {
-  return json.dump(-1, ' ', false, J::error_handler_t::replace);
-}
-
-std::string StringOf(const TranscriptJson& object, const char* name) {
-  const auto found = object.find(name);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
-void ReadHead(const TranscriptJson& json, const std::string& where) {
-  if (!json.is_object() || StringOf(json, "transcript") != kFormat) {
+void ReadHead(const Json& json, const std::string& where) {
+  if (!json.is_object() || core::TextMember(json, "transcript") != kFormat) {
     throw core::Error("is not a transcript: its first line is different", where,
                       "make one with --record");
   }
-  if (!json.contains("version") || json["version"] != kVersion) {
+  if (core::NumberMember(json, "version", 0.0) != kVersion) {
     throw core::Error("is a transcript of another version of the program", where,
                       "record it again");
   }
 }
 
-TranscriptEntry ReadEntry(const TranscriptJson& json, const std::string& where) {
+TranscriptEntry ReadEntry(const Json& json, const std::string& where) {
   if (!json.is_object()) throw core::Error("the line is truncated or damaged", where);
   TranscriptEntry entry;
-  entry.task = StringOf(json, "task");
-  entry.model = StringOf(json, "model");
-  const auto request = json.find("request");
-  if (request == json.end() || !request->is_object()) {
+  entry.task = core::TextMember(json, "task");
+  entry.model = core::TextMember(json, "model");
+  const Json* request = core::FindMember(json, "request");
+  if (request == nullptr || !request->is_object()) {
     throw core::Error("the line has no request", where);
   }
-  entry.request = Dump(*request);
-  const auto hash = json.find("hash");  // a hand-written transcript need not have it
-  if (hash != json.end() && *hash != core::ContentHash(entry.request)) {
+  entry.request = core::JsonLine(*request, core::InvalidUtf8::kReplace);
+  const Json* hash = core::FindMember(json, "hash");  // a hand-written transcript need not have it
+  if (hash != nullptr && *hash != core::ContentHash(entry.request)) {
     throw core::Error("the request was changed after it was recorded", where,
                       "remove its hash if that was intended");
   }
-  const auto answer = json.find("answer");
-  if (answer == json.end() || !AnswerFromJson(*answer, &entry.answer)) {
+  const Json* answer = core::FindMember(json, "answer");
+  if (answer == nullptr || !AnswerFromJson(*answer, &entry.answer)) {
     throw core::Error("the line has no answer with a text", where);
   }
   return entry;
@@ -72,12 +61,12 @@ TranscriptEntry ReadEntry(const TranscriptJson& json, const std::string& where) 
 
 // Returns all texts of a canonical request, concatenated.
 std::string TextOf(const std::string& canonical) {
-  const TranscriptJson json = ParseJson(canonical);
+  const std::optional<Json> json = core::TryParseJson(canonical);
+  const Json* messages = json ? core::FindMember(*json, "messages") : nullptr;
   std::string text;
-  const auto messages = json.is_object() ? json.find("messages") : json.end();
-  if (!json.is_object() || messages == json.end() || !messages->is_array()) return text;
-  for (const TranscriptJson& message : *messages) {
-    if (message.is_object()) text += StringOf(message, "text") + "\n";
+  if (messages == nullptr || !messages->is_array()) return text;
+  for (const Json& message : *messages) {
+    if (message.is_object()) text += core::TextMember(message, "text") + "\n";
   }
   return text;
 }
@@ -110,16 +99,16 @@ std::string Divergence(const std::string& asked, const std::string& recorded) {
 }  // namespace
 
 std::string TranscriptHead() {
-  return Dump(nlohmann::ordered_json{{"transcript", kFormat}, {"version", kVersion}}) + "\n";
+  return core::JsonLine(core::OrderedJson{{"transcript", kFormat}, {"version", kVersion}}) + "\n";
 }
 
 std::string TranscriptLine(const TranscriptEntry& entry) {
-  const nlohmann::ordered_json json = {{"hash", core::ContentHash(entry.request)},
-                                       {"task", entry.task},
-                                       {"model", entry.model},
-                                       {"request", TranscriptJson::parse(entry.request)},
-                                       {"answer", AnswerToJson(entry.answer)}};
-  return Dump(json) + "\n";
+  const core::OrderedJson json = {{"hash", core::ContentHash(entry.request)},
+                                  {"task", entry.task},
+                                  {"model", entry.model},
+                                  {"request", core::ParseJson(entry.request, "the request")},
+                                  {"answer", AnswerToJson(entry.answer)}};
+  return core::JsonLine(json, core::InvalidUtf8::kReplace) + "\n";
 }
 
 std::vector<TranscriptEntry> ReadTranscript(std::string_view text, const std::string& where) {
@@ -132,7 +121,7 @@ std::vector<TranscriptEntry> ReadTranscript(std::string_view text, const std::st
     text.remove_prefix(std::min(end + 1, text.size()));
     ++number;
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
-    const TranscriptJson json = ParseJson(line);
+    const Json json = core::TryParseJson(line).value_or(Json());
     const std::string place = where + " line " + std::to_string(number);
     if (head) {
       ReadHead(json, place);

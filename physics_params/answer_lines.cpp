@@ -5,15 +5,14 @@
 #include <cctype>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
+#include "core/json.h"
 #include "llm/json_text.h"
 #include "physics_params/measure_text.h"
 
 namespace simwright::physics_params {
 namespace {
 
-using Json = nlohmann::json;
+using core::Json;
 
 constexpr std::size_t kMostRead = 64u << 10;  // bytes; an answer has a few hundred
 constexpr std::size_t kLongestName = 60;      // bytes

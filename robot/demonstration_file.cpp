@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/hdf5.h"
-#include "robot/json_field.h"
+#include "core/json.h"
 #include "robot/number_text.h"
 
 namespace simwright::robot {
@@ -162,16 +160,14 @@ std::int64_t NumberOf(const std::string& name, const std::string& where) {
 }
 
 void ReadEnvironment(const std::string& env_args, const std::string& where, DemonstrationSet* set) {
-  const nlohmann::json json = ParseJson(env_args, where);
-  const JsonField root(json, "", where);
-  for (const char* name : {"env_name", "type", "env_kwargs"}) {
-    if (!root.Has(name)) root.Fail(std::string("'") + name + "' is missing");
-  }
-  set->env_name = root["env_name"].Text();
-  set->env_type = static_cast<int>(root["type"].Integer());
-  if (root.Has("env_version")) set->env_version = root["env_version"].Text();
-  if (!json["env_kwargs"].is_object()) root["env_kwargs"].Fail("should be an object");
-  set->env_kwargs = json["env_kwargs"].dump();
+  const core::JsonDocument document(env_args, where);
+  const core::JsonField root = document.root();
+  set->env_name = root["env_name"].Name();
+  set->env_type = root["type"].Int();
+  if (root.Has("env_version")) set->env_version = root["env_version"].Name();
+  const core::JsonField kwargs = root["env_kwargs"];
+  if (!kwargs.json().is_object()) kwargs.FailAs("an object");
+  set->env_kwargs = core::JsonLine(kwargs.json());
 }
 
 }  // namespace
@@ -179,9 +175,9 @@ void ReadEnvironment(const std::string& env_args, const std::string& where, Demo
 void WriteDemonstrations(const std::filesystem::path& path, const DemonstrationSet& set) {
   const std::string where = path.string();
   RequireWellFormed(set, where);
-  const nlohmann::json kwargs = ParseJson(set.env_kwargs, where + ": env_kwargs");
+  const core::Json kwargs = core::ParseJson(set.env_kwargs, where + ": env_kwargs");
   if (!kwargs.is_object()) throw core::Error("env_kwargs is not a JSON object", where);
-  nlohmann::ordered_json env_args;
+  core::OrderedJson env_args;
   env_args["env_name"] = set.env_name;
   if (!set.env_version.empty()) env_args["env_version"] = set.env_version;
   env_args["type"] = set.env_type;
@@ -195,8 +191,7 @@ void WriteDemonstrations(const std::filesystem::path& path, const DemonstrationS
     total += static_cast<std::int64_t>(set.demonstrations[i].size());
   }
   data.SetAttribute("total", total);
-  data.SetAttribute("env_args",
-                    env_args.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
+  data.SetAttribute("env_args", env_args.dump(-1, ' ', true, core::Json::error_handler_t::replace));
   if (!set.filters.empty()) {
     core::Hdf5Group mask = writer.root().Create("mask");
     for (const auto& [name, indices] : set.filters) {

@@ -4,8 +4,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "robot/json_field.h"
+#include "core/json.h"
 
 namespace simwright::robot {
 namespace {
@@ -34,15 +33,15 @@ void RequireDistinct(const JointNames& names, const std::vector<std::string>& jo
 }
 
 JointNames FromFile(const std::string& file, const std::vector<std::string>& joints) {
-  const nlohmann::json json = ParseJson(core::ReadFile(file, kMostBytes), file);
+  const core::JsonDocument document = core::JsonDocument::Read(file, kMostBytes);
   JointNames names;
-  for (const auto& [joint, field] : JsonField(json, "", file).Members()) {
+  for (const auto& [joint, field] : document.root().Members()) {
     if (std::find(joints.begin(), joints.end(), joint) == joints.end()) {
       std::string known;
       for (const std::string& one : joints) known += (known.empty() ? "" : ", ") + one;
       throw core::Error("the robot has no joint '" + joint + "'", file, "it has " + known);
     }
-    names.names[joint] = field.Text();
+    names.names[joint] = field.Name();
   }
   RequireDistinct(names, joints, file);
   return names;

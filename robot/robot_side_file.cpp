@@ -1,11 +1,12 @@
 #include "robot/robot_side_file.h"
 
 #include "core/error.h"
-#include "core/files.h"
-#include "robot/json_field.h"
+#include "core/json.h"
 
 namespace simwright::robot {
 namespace {
+
+using core::JsonField;
 
 constexpr std::uint64_t kMaxSideFileBytes = 1 << 20;
 
@@ -32,9 +33,9 @@ LimitMargin MarginFrom(const JsonField& field) {
 void ReadGripper(const JsonField& field, RobotSideFile* side) {
   field.RequireMembers({"joints", "finger_links", "closed", "open"},
                        {"opening_ratio", "grip_force"});
-  side->gripper_joints = field["joints"].Texts();
+  side->gripper_joints = field["joints"].Names();
   if (side->gripper_joints.empty()) field["joints"].Fail("names no joints");
-  side->finger_links = field["finger_links"].Texts();
+  side->finger_links = field["finger_links"].Names();
   if (side->finger_links.empty()) field["finger_links"].Fail("names no links");
   side->closed = field["closed"].Number();
   side->open = field["open"].Number();
@@ -51,15 +52,15 @@ RobotSideFile ReadRobotSideFile(const std::filesystem::path& path) {
     throw core::Error("the robot's side file is missing", file,
                       "docs/robots.md shows its contents");
   }
-  const nlohmann::json json = ParseJson(core::ReadFile(path, kMaxSideFileBytes), file);
-  const JsonField root(json, "", file);
+  const core::JsonDocument document = core::JsonDocument::Read(path, kMaxSideFileBytes);
+  const JsonField root = document.root();
   root.RequireMembers({"format", "tool_link", "arm_joints", "home", "gripper"},
                       {"base_joints", "limits", "margin", "ignored_collisions"});
   if (root["format"].Integer() != 1) root["format"].Fail("must be 1");
   RobotSideFile side;
-  side.tool_link = root["tool_link"].Text();
-  if (root.Has("base_joints")) side.base_joints = root["base_joints"].Texts();
-  side.arm_joints = root["arm_joints"].Texts();
+  side.tool_link = root["tool_link"].Name();
+  if (root.Has("base_joints")) side.base_joints = root["base_joints"].Names();
+  side.arm_joints = root["arm_joints"].Names();
   for (const auto& [name, field] : root["home"].Members()) side.home[name] = field.Number();
   if (root.Has("limits")) {
     for (const auto& [name, field] : root["limits"].Members()) {
@@ -70,7 +71,7 @@ RobotSideFile ReadRobotSideFile(const std::filesystem::path& path) {
   ReadGripper(root["gripper"], &side);
   if (root.Has("ignored_collisions")) {
     for (const JsonField& pair : root["ignored_collisions"].Elements()) {
-      const std::vector<std::string> names = pair.Texts();
+      const std::vector<std::string> names = pair.Names();
       if (names.size() != 2) pair.Fail("must name two links");
       side.ignored_collisions.emplace_back(names[0], names[1]);
     }

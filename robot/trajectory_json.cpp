@@ -1,10 +1,12 @@
-#include "robot/json_field.h"
+#include "core/json.h"
 #include "robot/number_text.h"
 #include "robot/trajectory_formats.h"
 #include "robot/trajectory_points.h"
 
 namespace simwright::robot {
 namespace {
+
+using core::JsonField;
 
 void AppendJsonRow(const char* name, const Eigen::MatrixXd& matrix, Eigen::Index row,
                    std::string* text) {
@@ -43,10 +45,10 @@ std::string RosJsonText(const JointTrajectory& trajectory) {
 }
 
 JointTrajectory ParseRosJson(const std::string& text, const std::string& where) {
-  const nlohmann::json json = ParseJson(text, where);
-  const JsonField root(json, "", where);
+  const core::JsonDocument document(text, where);
+  const JsonField root = document.root();
   root.RequireMembers({"joint_names", "points"}, {"header"});
-  TrajectoryPoints points(root["joint_names"].Texts(), where);
+  TrajectoryPoints points(root["joint_names"].Names(), where);
   std::size_t index = 0;
   for (const JsonField& field : root["points"].Elements()) {
     field.RequireMembers({"positions", "time_from_start"},

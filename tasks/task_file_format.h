@@ -6,7 +6,6 @@
 namespace simwright::tasks::task_file {
 
 inline constexpr int kFormat = 1;
-inline constexpr std::uint64_t kLargest = 64u << 20;                        // bytes
-inline constexpr const char* kSeverities[] = {"info", "warning", "error"};  // core::Severity
+inline constexpr std::uint64_t kLargest = 64u << 20;  // bytes
 
 }  // namespace simwright::tasks::task_file

@@ -1,17 +1,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/files.h"
+#include "core/finding_json.h"
+#include "core/json.h"
 #include "tasks/task_file.h"
 #include "tasks/task_file_format.h"
 
 namespace simwright::tasks {
 namespace {
 
-using OrderedTaskJson = nlohmann::ordered_json;
+using core::OrderedJson;
 namespace fs = std::filesystem;
 
 double Finite(double value, const std::string& place) {
@@ -19,7 +19,7 @@ double Finite(double value, const std::string& place) {
   return value;
 }
 
-OrderedTaskJson ToJson(const Eigen::Vector3d& v, const std::string& place) {
+OrderedJson ToJson(const Eigen::Vector3d& v, const std::string& place) {
   return {Finite(v.x(), place), Finite(v.y(), place), Finite(v.z(), place)};
 }
 
@@ -41,7 +41,7 @@ Eigen::Quaterniond SettledRotation(const Eigen::Isometry3d& pose) {
   return q;
 }
 
-OrderedTaskJson PoseJson(const Eigen::Isometry3d& pose, const std::string& place) {
+OrderedJson PoseJson(const Eigen::Isometry3d& pose, const std::string& place) {
   const Eigen::Quaterniond q = SettledRotation(pose);
   return {
       {"position", ToJson(Eigen::Vector3d(pose.translation()), place)},
@@ -50,8 +50,8 @@ OrderedTaskJson PoseJson(const Eigen::Isometry3d& pose, const std::string& place
 }
 
 // Returns a program as its lines; joining them with line breaks restores it.
-OrderedTaskJson LinesJson(std::string_view text) {
-  OrderedTaskJson lines = OrderedTaskJson::array();
+OrderedJson LinesJson(std::string_view text) {
+  OrderedJson lines = OrderedJson::array();
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     lines.push_back(std::string(text.substr(0, end)));
@@ -62,28 +62,20 @@ OrderedTaskJson LinesJson(std::string_view text) {
   return lines;
 }
 
-OrderedTaskJson ToJson(const core::Findings& findings, const std::string& place) {
-  OrderedTaskJson list = OrderedTaskJson::array();
-  for (const core::Finding& f : findings) {
-    list.push_back({{"code", f.code},
-                    {"severity", task_file::kSeverities[static_cast<std::size_t>(f.severity)]},
-                    {"place", f.place},
-                    {"sentence", f.sentence},
-                    {"figure", Finite(f.figure, place + ".figure")}});
-    if (!f.remedy.empty()) list.back()["remedy"] = f.remedy;
-  }
-  return list;
+OrderedJson ToJson(const core::Findings& findings, const std::string& place) {
+  for (const core::Finding& finding : findings) Finite(finding.figure, place + ".figure");
+  return core::StoredFindingsJson(findings);
 }
 
-OrderedTaskJson ToJson(const InitialState& start, const std::string& place) {
-  OrderedTaskJson placements = OrderedTaskJson::array();
+OrderedJson ToJson(const InitialState& start, const std::string& place) {
+  OrderedJson placements = OrderedJson::array();
   for (const AssetPlacement& placement : start.placements) {
-    OrderedTaskJson entry = {{"asset", placement.asset}};
+    OrderedJson entry = {{"asset", placement.asset}};
     entry.update(PoseJson(placement.world_from_asset, place + ".placements"));
     entry["fixed"] = placement.fixed;
     placements.push_back(entry);
   }
-  OrderedTaskJson joints = OrderedTaskJson::array();
+  OrderedJson joints = OrderedJson::array();
   for (const JointCondition& joint : start.joints) {
     joints.push_back({{"asset", joint.asset},
                       {"joint", joint.joint},
@@ -95,25 +87,24 @@ OrderedTaskJson ToJson(const InitialState& start, const std::string& place) {
           {"held", start.held}};
 }
 
-OrderedTaskJson ToJson(const Subtask& subtask, const std::string& place) {
-  OrderedTaskJson attempts = OrderedTaskJson::array();
+OrderedJson ToJson(const Subtask& subtask, const std::string& place) {
+  OrderedJson attempts = OrderedJson::array();
   for (const Attempt& attempt : subtask.attempts) {
     attempts.push_back({{"program", LinesJson(attempt.program)},
                         {"findings", ToJson(attempt.findings, place + ".attempts")}});
   }
-  return {
-      {"name", subtask.name},
-      {"description", subtask.description},
-      {"program", LinesJson(subtask.program)},
-      {"success", subtask.success},
-      {"start", ToJson(subtask.start, place + ".start")},
-      {"goal", subtask.goal ? ToJson(*subtask.goal, place + ".goal") : OrderedTaskJson(nullptr)},
-      {"findings", ToJson(subtask.findings, place + ".findings")},
-      {"attempts", attempts}};
+  return {{"name", subtask.name},
+          {"description", subtask.description},
+          {"program", LinesJson(subtask.program)},
+          {"success", subtask.success},
+          {"start", ToJson(subtask.start, place + ".start")},
+          {"goal", subtask.goal ? ToJson(*subtask.goal, place + ".goal") : OrderedJson(nullptr)},
+          {"findings", ToJson(subtask.findings, place + ".findings")},
+          {"attempts", attempts}};
 }
 
-OrderedTaskJson ToJson(const Task& task, const std::string& place) {
-  OrderedTaskJson subtasks = OrderedTaskJson::array();
+OrderedJson ToJson(const Task& task, const std::string& place) {
+  OrderedJson subtasks = OrderedJson::array();
   for (std::size_t i = 0; i < task.subtasks.size(); ++i) {
     subtasks.push_back(ToJson(task.subtasks[i], place + ".subtasks[" + std::to_string(i) + "]"));
   }
@@ -136,15 +127,15 @@ std::string StoredPath(const std::string& path, const fs::path& folder) {
 }
 
 // Appends `json` as Json::dump does, with related numbers on one line.
-void AppendIndented(const OrderedTaskJson& json, std::size_t indentation, std::string* text) {
-  const auto leaf = [](const OrderedTaskJson& value) {
+void AppendIndented(const OrderedJson& json, std::size_t indentation, std::string* text) {
+  const auto leaf = [](const OrderedJson& value) {
     return !value.is_structured() || value.empty();
   };
   const bool numbers =
       json.is_array() &&
-      std::all_of(json.begin(), json.end(), [](const OrderedTaskJson& n) { return n.is_number(); });
+      std::all_of(json.begin(), json.end(), [](const OrderedJson& n) { return n.is_number(); });
   if (leaf(json) || numbers) {
-    std::string line = json.dump(-1, ' ', false, OrderedTaskJson::error_handler_t::replace);
+    std::string line = core::JsonLine(json, core::InvalidUtf8::kReplace);
     for (std::size_t i = 0; numbers && i < line.size(); ++i) {
       if (line[i] == ',') line.insert(++i, " ");
     }
@@ -165,18 +156,17 @@ void AppendIndented(const OrderedTaskJson& json, std::size_t indentation, std::s
 }  // namespace
 
 std::string TaskFileText(const TaskSet& set, const fs::path& folder) {
-  OrderedTaskJson assets = OrderedTaskJson::array();
+  OrderedJson assets = OrderedJson::array();
   for (const TaskAsset& asset : set.assets) {
     assets.push_back({{"name", asset.name},
                       {"path", StoredPath(asset.path, folder)},
                       {"category", asset.category}});
   }
-  OrderedTaskJson tasks = OrderedTaskJson::array();
+  OrderedJson tasks = OrderedJson::array();
   for (std::size_t i = 0; i < set.tasks.size(); ++i) {
     tasks.push_back(ToJson(set.tasks[i], "tasks[" + std::to_string(i) + "]"));
   }
-  const OrderedTaskJson json = {
-      {"format", task_file::kFormat}, {"assets", assets}, {"tasks", tasks}};
+  const OrderedJson json = {{"format", task_file::kFormat}, {"assets", assets}, {"tasks", tasks}};
   std::string text;
   AppendIndented(json, 0, &text);
   return text + "\n";

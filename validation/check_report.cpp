@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
+#include "core/json.h"
 
 namespace simwright::validation {
 namespace {
@@ -87,18 +87,18 @@ std::string CheckTable(const CheckReport& report) {
 }
 
 std::string CheckJson(const CheckReport& report) {
-  nlohmann::ordered_json json;
+  core::OrderedJson json;
   json["subject"] = report.subject;
   json["passed"] = report.passed();
   json["grade"] = GradeName(report.grade());
-  json["rows"] = nlohmann::ordered_json::array();
+  json["rows"] = core::OrderedJson::array();
   for (const core::Finding& row : report.results) {
     json["rows"].push_back({{"property", row.code},
                             {"verdict", Verdict(row)},
                             {"figure", row.figure},
                             {"sentence", row.sentence}});
   }
-  return json.dump(2) + "\n";
+  return core::JsonText(json);
 }
 
 }  // namespace simwright::validation

@@ -8,9 +8,9 @@
 #include <map>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "core/files.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/model/training.h"
@@ -77,13 +77,13 @@ void MakeCell(const Arguments& arguments) {
   request.output = cell / "evaluation";
   const workflows::SceneEvaluation evaluation = workflows::EvaluateScenes(request, &progress);
   progress.Finish();
-  nlohmann::ordered_json json = nlohmann::ordered_json::parse(EvaluationJson(evaluation));
+  core::OrderedJson json = core::ParseOrderedJson(EvaluationJson(evaluation), "the evaluation");
   json["run"] = {{"steps", arguments.steps},
                  {"batch", arguments.batch},
                  {"parameters", trained.parameters},
                  {"seconds", resumed ? NAN : trained.seconds},
                  {"held_out_loss", trained.losses.back().held_out}};
-  core::WriteFile(cell / "cell.json", json.dump(2) + "\n");
+  core::WriteFile(cell / "cell.json", core::JsonText(json));
   std::fputs(EvaluationTable(evaluation).c_str(), stdout);
 }
 
@@ -114,12 +114,12 @@ std::string MeanAndInterval(const std::vector<Row>& rows, Column column, double 
   return cell + " +- " + text;
 }
 
-Row RowOf(const nlohmann::json& json) {
-  const auto number = [](const nlohmann::json& at, const char* name) {
+Row RowOf(const core::Json& json) {
+  const auto number = [](const core::Json& at, const char* name) {
     return at.contains(name) && at[name].is_number() ? at[name].get<double>() : NAN;
   };
   Row row;
-  const nlohmann::json& samples = json.at("samples");
+  const core::Json& samples = json.at("samples");
   row.divergence = number(samples, "kl_1e4");
   row.frechet = number(samples, "frechet");
   row.penetration = number(samples.at("penetration"), "parts_median_cm");
@@ -143,7 +143,7 @@ void PrintTable(const fs::path& output) {
     if (!fs::exists(file)) continue;
     const std::string name = entry.path().filename().string();
     rows[name.substr(0, name.rfind('_'))].push_back(
-        RowOf(nlohmann::json::parse(core::ReadFile(file))));
+        RowOf(core::ParseJson(core::ReadFile(file), file.string())));
   }
   std::printf("%-16s %5s %9s %13s %13s %15s %15s %13s %13s %13s %6s\n", "method", "seeds",
               "weights", "CA %", "KL x1e4", "Frechet", "MTP cm", "of AABBs", "nearest m", "objects",

@@ -4,4 +4,5 @@
 #include "cmake/precompiled/standard.h"
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+
+#include "core/json.h"

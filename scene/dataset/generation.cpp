@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "scene/dataset/tokens.h"
 #include "scene/grammar/scene_sample.h"
@@ -91,7 +90,7 @@ constexpr int kRevision = 3;
 
 std::string SettingsText(const Generation& generation) {
   const FeasibilityOptions& feasible = generation.feasibility;
-  nlohmann::ordered_json json;
+  core::OrderedJson json;
   json["revision"] = kRevision;
   json["grammar"] = generation.grammar.name();
   json["projection"] = {{"influence", feasible.projection.contact_margin},
@@ -113,7 +112,7 @@ std::string SettingsText(const Generation& generation) {
   json["may_lie"] = feasible.may_lie;
   json["penetration"] = feasible.penetration;
   json["fewest"] = feasible.min_objects;
-  return json.dump();
+  return core::JsonLine(json);
 }
 
 }  // namespace simwright::scene

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
+#include "core/json.h"
 
 namespace simwright::scene {
 namespace {
@@ -59,21 +58,15 @@ void PoseRange::FromUnit(const float* unit, float* pose) const {
 }
 
 std::string PoseRange::Text() const {
-  return nlohmann::json{{"low", low_}, {"high", high_}}.dump();
+  return core::JsonLine(core::Json{{"low", low_}, {"high", high_}});
 }
 
 PoseRange PoseRange::FromText(const std::string& text) {
-  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  const core::JsonDocument document(text, "the ranges of poses");
   const auto read = [&](const char* name) {
+    const std::vector<double> numbers = document.root()[name].Numbers(kPoseWidth);
     std::array<double, kPoseWidth> values{};
-    if (!json.is_object() || !json.contains(name) || !json[name].is_array() ||
-        json[name].size() != kPoseWidth) {
-      throw core::Error("invalid ranges of poses", text.substr(0, 40));
-    }
-    for (size_t i = 0; i < kPoseWidth; ++i) {
-      if (!json[name][i].is_number()) throw core::Error("a range is not a number", name);
-      values[i] = json[name][i].get<double>();
-    }
+    std::copy(numbers.begin(), numbers.end(), values.begin());
     return values;
   };
   return PoseRange(read("low"), read("high"));

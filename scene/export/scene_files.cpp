@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
+#include "core/json.h"
 
 namespace simwright::scene {
 namespace {
@@ -47,16 +47,16 @@ std::string PoseLines(const WorldObject& instance, const std::string& indent) {
 }  // namespace
 
 std::string SceneJson(const ExportedScene& scene) {
-  nlohmann::ordered_json json;
+  core::OrderedJson json;
   json["format"] = 1;
   json["name"] = scene.name;
   json["type"] = scene.type;
   json["scene"] = scene.index;
-  json["objects"] = nlohmann::ordered_json::array();
+  json["objects"] = core::OrderedJson::array();
   for (const WorldObject& instance : scene.objects) {
     const Eigen::Vector3d& place = instance.world_from_object.translation();
     const Eigen::Quaterniond turn = RotationOf(instance);
-    nlohmann::ordered_json object;
+    core::OrderedJson object;
     object["name"] = instance.name;
     object["slot"] = instance.asset->key;
     object["urdf"] = instance.asset->folder + instance.asset->asset.name + ".urdf";
@@ -65,7 +65,7 @@ std::string SceneJson(const ExportedScene& scene) {
     object["welded"] = instance.welded;
     json["objects"].push_back(std::move(object));
   }
-  return json.dump(2) + "\n";
+  return core::JsonText(json);
 }
 
 std::string DrakeDirectives(const ExportedScene& scene, const std::string& package) {

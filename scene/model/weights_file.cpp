@@ -1,8 +1,7 @@
 #include "scene/model/weights_file.h"
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
+#include "core/json.h"
 #include "nn/checkpoint.h"
 
 namespace simwright::scene {
@@ -10,32 +9,35 @@ namespace {
 
 constexpr char kKind[] = "scene model";
 
-SceneModelOptions OptionsOf(const nlohmann::json& json) {
+SceneModelOptions OptionsOf(const core::JsonField& field) {
   SceneModelOptions options;
-  options.kind = DenoiserNamed(json.at("denoiser"));
-  options.continuous = json.at("continuous");
-  options.width = json.at("width");
-  options.heads = json.at("heads");
-  options.double_blocks = json.at("double_blocks");
-  options.single_blocks = json.at("single_blocks");
-  options.diffusion_steps = json.at("diffusion_steps");
-  options.class_weight = json.at("class_weight");
-  options.blends_clean_poses = json.value("blends_clean_poses", false);
-  options.time_power = json.value("time_power", 1.0);
-  options.shape_points = json.value("shape_points", 0);
+  options.kind = DenoiserNamed(field["denoiser"].Text());
+  options.continuous = field["continuous"].Flag();
+  options.width = field["width"].Int();
+  options.heads = field["heads"].Int();
+  options.double_blocks = field["double_blocks"].Int();
+  options.single_blocks = field["single_blocks"].Int();
+  options.diffusion_steps = field["diffusion_steps"].Int();
+  options.class_weight = field["class_weight"].Number();
+  options.blends_clean_poses = field.FlagOr("blends_clean_poses", false);
+  options.time_power = field.NumberOr("time_power", 1.0);
+  options.shape_points = field.IntOr("shape_points", 0);
   return options;
 }
 
-SceneModelMetadata MetadataOf(const nlohmann::json& json) {
+SceneModelMetadata MetadataOf(const core::JsonField& field) {
   Vocabulary vocabulary;
-  vocabulary.type = json.at("type");
-  vocabulary.entries = json.at("entries");
-  vocabulary.categories = json.at("slots").get<std::vector<std::string>>();
-  vocabulary.welded = json.at("welded").get<std::vector<bool>>();
-  SceneModelMetadata metadata{vocabulary, OptionsOf(json), PoseRange::FromText(json.at("range"))};
-  metadata.training_scenes = json.at("training_scenes");
-  metadata.data_seed = json.at("data_seed");
-  metadata.steps = json.at("steps");
+  vocabulary.type = field["type"].Text();
+  vocabulary.entries = field["entries"].Int();
+  vocabulary.categories = field["slots"].Texts();
+  for (const core::JsonField& welded : field["welded"].Elements()) {
+    vocabulary.welded.push_back(welded.Flag());
+  }
+  SceneModelMetadata metadata{vocabulary, OptionsOf(field),
+                              PoseRange::FromText(field["range"].Text())};
+  metadata.training_scenes = field["training_scenes"].Int();
+  metadata.data_seed = field["data_seed"].Unsigned();
+  metadata.steps = field["steps"].Int();
   return metadata;
 }
 
@@ -43,7 +45,7 @@ SceneModelMetadata MetadataOf(const nlohmann::json& json) {
 
 void WriteWeights(const Denoiser& denoiser, const SceneModelMetadata& metadata,
                   const std::filesystem::path& path) {
-  nlohmann::ordered_json json;
+  core::OrderedJson json;
   json["type"] = metadata.vocabulary.type;
   json["entries"] = metadata.vocabulary.entries;
   json["slots"] = metadata.vocabulary.categories;
@@ -63,23 +65,21 @@ void WriteWeights(const Denoiser& denoiser, const SceneModelMetadata& metadata,
   json["training_scenes"] = metadata.training_scenes;
   json["data_seed"] = metadata.data_seed;
   json["steps"] = metadata.steps;
-  nn::SaveCheckpoint(denoiser, {{"kind", kKind}, {"model", json.dump()}}, path);
+  nn::SaveCheckpoint(denoiser, {{"kind", kKind}, {"model", core::JsonLine(json)}}, path);
 }
 
 ReadModel ReadWeights(const std::filesystem::path& path) {
   const nn::CheckpointMetadata metadata = nn::ReadCheckpointMetadata(path, kKind);
   std::string error;
   try {
-    ReadModel model{MetadataOf(nlohmann::json::parse(metadata.at("model"))), nullptr};
+    const core::JsonDocument document(metadata.at("model"), path.string(), "train the model again");
+    ReadModel model{MetadataOf(document.root()), nullptr};
     if (!model.metadata.vocabulary.IsValid(&error)) throw core::Error(error, path.string());
     model.denoiser = MakeDenoiser(model.metadata.options, model.metadata.vocabulary.ClassCount());
     nn::LoadCheckpoint(path, kKind, model.denoiser.get());
     model.metadata.parameters = ParameterCount(*model.denoiser);
     model.denoiser->eval();
     return model;
-  } catch (const nlohmann::json::exception&) {
-    throw core::Error("the metadata of the weights cannot be read", path.string(),
-                      "train the model again");
   } catch (const std::out_of_range&) {
     throw core::Error("the weights lack the options of their model", path.string());
   }

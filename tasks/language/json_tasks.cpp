@@ -4,8 +4,7 @@
 #include <string>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
+#include "core/json.h"
 #include "llm/json_text.h"
 #include "tasks/language/answer_text.h"
 #include "tasks/language/program_blocks.h"
@@ -14,7 +13,7 @@
 namespace simwright::tasks {
 namespace {
 
-using AnswerJson = nlohmann::json;
+using core::Json;
 
 constexpr int kDeepestAnswer = 6;  // nesting levels of objects around tasks
 
@@ -27,7 +26,7 @@ std::string PlainKey(std::string_view key) {
   return plain;
 }
 
-const AnswerJson* Member(const AnswerJson& object, std::initializer_list<std::string_view> names) {
+const Json* Member(const Json& object, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
     for (const auto& [key, value] : object.items()) {
       if (PlainKey(key) == name) return &value;
@@ -36,7 +35,7 @@ const AnswerJson* Member(const AnswerJson& object, std::initializer_list<std::st
   return nullptr;
 }
 
-std::string TextOf(const AnswerJson* json) {
+std::string TextOf(const Json* json) {
   return json != nullptr && json->is_string() ? Unquoted(json->get<std::string>()) : "";
 }
 
@@ -51,13 +50,13 @@ std::string WithoutFence(const std::string& program) {
 }
 
 // Returns a program given as text or as lines, directly or one level down ({"code": ...}).
-std::string ProgramOf(const AnswerJson* json, int depth = 0) {
+std::string ProgramOf(const Json* json, int depth = 0) {
   if (json == nullptr) return "";
   std::string program;
   if (json->is_string()) {
     program = WithoutFence(json->get<std::string>());
   } else if (json->is_array()) {
-    for (const AnswerJson& line : *json) {
+    for (const Json& line : *json) {
       if (!line.is_string()) return "";
       program += line.get<std::string>() + (line.get<std::string>().ends_with('\n') ? "" : "\n");
     }
@@ -69,17 +68,17 @@ std::string ProgramOf(const AnswerJson* json, int depth = 0) {
   return code ? program + (program.ends_with('\n') ? "" : "\n") : "";
 }
 
-const AnswerJson* ProgramMember(const AnswerJson& object) {
+const Json* ProgramMember(const Json& object) {
   return Member(object,
                 {"program", "rewardfunction", "rewardcode", "reward", "code", "computereward",
                  "function", "rewardprogram", "pythoncode", "python", "rewardfn"});
 }
 
-const AnswerJson* SubtasksMember(const AnswerJson& object) {
+const Json* SubtasksMember(const Json& object) {
   return Member(object, {"subtasks", "subtask", "decomposition", "subtaskdecomposition", "steps"});
 }
 
-std::string TitleMember(const AnswerJson& object) {
+std::string TitleMember(const Json& object) {
   for (const std::string_view name :
        {"name", "taskname", "subtaskname", "task", "subtask", "title", "tasktitle"}) {
     const std::string title = TextOf(Member(object, {name}));
@@ -88,7 +87,7 @@ std::string TitleMember(const AnswerJson& object) {
   return "";
 }
 
-Subtask SubtaskOf(const AnswerJson& object, const std::string& title) {
+Subtask SubtaskOf(const Json& object, const std::string& title) {
   Subtask subtask;
   subtask.name = TitleMember(object);
   if (subtask.name.empty()) subtask.name = title;
@@ -98,31 +97,31 @@ Subtask SubtaskOf(const AnswerJson& object, const std::string& title) {
   subtask.success = TextOf(
       Member(object, {"success", "successcondition", "successcriterion", "successcriteria"}));
   if (subtask.success.empty()) subtask.success = SuccessExpression(subtask.program);
-  if (const AnswerJson* goal = Member(object, {"goal", "goalposition", "targetposition"})) {
-    subtask.goal = StatedGoal(goal->dump(-1, ' ', false, AnswerJson::error_handler_t::replace));
+  if (const Json* goal = Member(object, {"goal", "goalposition", "targetposition"})) {
+    subtask.goal = StatedGoal(core::JsonLine(*goal, core::InvalidUtf8::kReplace));
   }
   return subtask;
 }
 
 // Returns the members of `object` in the order of their keys in the answer, which the JSON parser
 // does not keep.
-std::vector<std::pair<std::string, const AnswerJson*>> InOrder(const AnswerJson& object,
-                                                               std::string_view answer) {
-  std::vector<std::pair<std::size_t, std::pair<std::string, const AnswerJson*>>> placed;
+std::vector<std::pair<std::string, const Json*>> InOrder(const Json& object,
+                                                         std::string_view answer) {
+  std::vector<std::pair<std::size_t, std::pair<std::string, const Json*>>> placed;
   for (const auto& [key, value] : object.items()) {
     placed.push_back({answer.find('"' + key + '"'), {key, &value}});
   }
   std::stable_sort(placed.begin(), placed.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::pair<std::string, const AnswerJson*>> members;
+  std::vector<std::pair<std::string, const Json*>> members;
   for (auto& [place, member] : placed) members.push_back(std::move(member));
   return members;
 }
 
 // Returns the subtasks, given as objects, as titles, or as a map from title to object or program.
-std::vector<Subtask> SubtasksOf(const AnswerJson& json, std::string_view answer) {
+std::vector<Subtask> SubtasksOf(const Json& json, std::string_view answer) {
   std::vector<Subtask> subtasks;
-  const auto add = [&](const std::string& key, const AnswerJson& value) {
+  const auto add = [&](const std::string& key, const Json& value) {
     if (value.is_object()) {
       subtasks.push_back(SubtaskOf(value, key));
     } else if (value.is_string() || value.is_array()) {
@@ -136,7 +135,7 @@ std::vector<Subtask> SubtasksOf(const AnswerJson& json, std::string_view answer)
     }
   };
   if (json.is_array()) {
-    for (const AnswerJson& element : json) add("", element);
+    for (const Json& element : json) add("", element);
   } else if (json.is_object()) {
     const bool single = ProgramMember(json) != nullptr;
     if (single) add("", json);
@@ -147,14 +146,14 @@ std::vector<Subtask> SubtasksOf(const AnswerJson& json, std::string_view answer)
 }
 
 // Assigns programs listed beside the subtasks, in order or by title.
-void AddProgramsBeside(const AnswerJson& object, std::vector<Subtask>* subtasks) {
-  const AnswerJson* beside = Member(
+void AddProgramsBeside(const Json& object, std::vector<Subtask>* subtasks) {
+  const Json* beside = Member(
       object, {"rewardfunctions", "rewards", "programs", "functions", "rewardfunction", "reward"});
   if (beside == nullptr || !(beside->is_array() || beside->is_object())) return;
   std::size_t next = 0;
   for (const auto& member : beside->items()) {
     const std::string& key = member.key();
-    const AnswerJson& value = member.value();
+    const Json& value = member.value();
     const auto named = std::find_if(subtasks->begin(), subtasks->end(), [&](const Subtask& s) {
       return beside->is_object() && Lower(s.name) == Lower(key);
     });
@@ -168,19 +167,19 @@ void AddProgramsBeside(const AnswerJson& object, std::vector<Subtask>* subtasks)
   }
 }
 
-bool IsTask(const AnswerJson& json) {
+bool IsTask(const Json& json) {
   if (!json.is_object()) return false;
   if (!ProgramOf(ProgramMember(json)).empty()) return true;
-  const AnswerJson* subtasks = SubtasksMember(json);
+  const Json* subtasks = SubtasksMember(json);
   return subtasks != nullptr && (subtasks->is_array() || subtasks->is_object());
 }
 
-Task TaskOf(const AnswerJson& json, const std::string& title, std::string_view answer) {
+Task TaskOf(const Json& json, const std::string& title, std::string_view answer) {
   Task task;
   task.name = TitleMember(json);
   if (task.name.empty()) task.name = title;
   task.description = TextOf(Member(json, {"taskdescription", "description"}));
-  if (const AnswerJson* subtasks = SubtasksMember(json)) {
+  if (const Json* subtasks = SubtasksMember(json)) {
     task.subtasks = SubtasksOf(*subtasks, answer);
     AddProgramsBeside(json, &task.subtasks);
   }
@@ -192,13 +191,13 @@ Task TaskOf(const AnswerJson& json, const std::string& title, std::string_view a
 }
 
 // Descends to the objects that are tasks; `key` is the key of the current object.
-void Collect(const AnswerJson& json, const std::string& key, std::string_view answer, int depth,
+void Collect(const Json& json, const std::string& key, std::string_view answer, int depth,
              std::vector<Task>* tasks) {
   if (depth > kDeepestAnswer) return;
   if (IsTask(json)) {
     tasks->push_back(TaskOf(json, key, answer));
   } else if (json.is_array()) {
-    for (const AnswerJson& element : json) Collect(element, "", answer, depth + 1, tasks);
+    for (const Json& element : json) Collect(element, "", answer, depth + 1, tasks);
   } else if (json.is_object()) {
     for (const auto& [name, value] : InOrder(json, answer)) {
       if (!value->is_primitive()) Collect(*value, name, answer, depth + 1, tasks);
@@ -235,7 +234,7 @@ std::string Repaired(std::string_view text) {
 
 std::vector<Task> TasksInText(std::string_view text) {
   std::vector<Task> tasks;
-  for (const AnswerJson& json : llm::JsonInText(text)) Collect(json, "", text, 0, &tasks);
+  for (const Json& json : llm::JsonInText(text)) Collect(json, "", text, 0, &tasks);
   return tasks;
 }
 

@@ -164,22 +164,22 @@ TEST(TaskFile, DamageIsNamedWithItsPlace) {
       {"/tasks/0/subtasks/0/start/placements/0/quaternion_wxyz", Json({0, 0, 0, 0})},
       {"/tasks/0/subtasks/0/start/robot/position", Json({0, 0, nullptr})},
       {"/tasks/0/subtasks/0/findings/0/severity", "fatal"}};
-  const char* places[] = {"assets: should be an array",
-                          "assets[0].name: should be",
+  const char* places[] = {"assets: must be an array",
+                          "assets[0].name: must be",
                           "assets[1].name: another asset",
                           "assets[0]: 'colour' is not a known member",
                           "tasks[0].name: is empty",
                           "tasks[0].assets[0]: no asset is called 'mug'",
-                          "tasks[0].subtasks[0].program: should be an array",
-                          "tasks[0].subtasks[0].program[1]: should be text",
+                          "tasks[0].subtasks[0].program: must be an array",
+                          "tasks[0].subtasks[0].program[1]: must be a string",
                           "tasks[0].subtasks[1].name: another subtask",
-                          "tasks[0].subtasks[0].goal: should hold 3 numbers",
+                          "tasks[0].subtasks[0].goal: must be an array of 3 numbers",
                           "tasks[0].subtasks[0].start.held: no asset",
-                          "tasks[0].subtasks[0].start.joints[0].position: should be a number",
-                          "tasks[0].subtasks[0].start.placements[0].fixed: should be true",
-                          "start.placements[0].quaternion_wxyz: should have length 1",
-                          "start.robot.position[2]: should be a number",
-                          "tasks[0].subtasks[0].findings[0].severity: should be info"};
+                          "tasks[0].subtasks[0].start.joints[0].position: must be a number",
+                          "tasks[0].subtasks[0].start.placements[0].fixed: must be true",
+                          "start.placements[0].quaternion_wxyz: must have length 1",
+                          "start.robot.position[2]: must be a number",
+                          "tasks[0].subtasks[0].findings[0].severity: must be info"};
   for (std::size_t i = 0; i < std::size(damages); ++i) {
     const std::string error = error_with(damages[i].first, damages[i].second);
     EXPECT_EQ(error.rfind("tasks.json: ", 0), 0u) << error;
@@ -193,13 +193,14 @@ TEST(TaskFile, DamageIsNamedWithItsPlace) {
 TEST(TaskFile, WhatIsNoFileOfTasksIsRefused) {
   const std::string text = TaskFileText(SampleSet("/d"), "/d");
   const std::string cut = ErrorOf(text.substr(0, text.size() / 2));
-  EXPECT_NE(cut.find("is no JSON from line "), std::string::npos) << cut;
-  EXPECT_NE(ErrorOf("").find("is no JSON"), std::string::npos);
+  EXPECT_NE(cut.find("the JSON ends too early, at line "), std::string::npos) << cut;
+  EXPECT_NE(ErrorOf("").find("where JSON was expected"), std::string::npos);
   EXPECT_NE(ErrorOf("[1]").find("'format' is missing"), std::string::npos);
   EXPECT_NE(ErrorOf("{\"format\": 2}").find("newer than this program's 1"), std::string::npos);
-  EXPECT_NE(ErrorOf("{\"format\": 0}").find("format: should be 1"), std::string::npos);
-  EXPECT_NE(ErrorOf("{\"format\": \"1\"}").find("format: should be a number"), std::string::npos);
-  EXPECT_NE(ErrorOf(std::string(100000, '[')).find("nested too deeply"), std::string::npos);
+  EXPECT_NE(ErrorOf("{\"format\": 0}").find("format: must be 1"), std::string::npos);
+  EXPECT_NE(ErrorOf("{\"format\": \"1\"}").find("format: must be a number"), std::string::npos);
+  EXPECT_NE(ErrorOf(std::string(100000, '[')).find("nested deeper than 64 levels"),
+            std::string::npos);
   EXPECT_NE(ErrorOf("{\"format\": 1e999}"), "");
   // Changes the bytes in turn: the reader returns a set or throws core::Error.
   for (std::size_t i = 0; i < text.size(); i += 3) {

@@ -39,13 +39,14 @@ TEST(CameraFile, NamesWhatIsWrong) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
   };
-  refused("\"fx\": 60", "\"fx\": -60", "'fx'");
-  refused("\"fx\": 60", "\"f\": 60", "'fx'");
+  refused("\"fx\": 60", "\"fx\": -60", "fx: must be a number of at least 0.001, is -60");
+  refused("\"fx\": 60", "\"f\": 60", "'fx' is missing");
   refused("[0, 0, 1, 1]", "[0, 0, 2, 1]", "not a rotation");
-  refused("[0, 0, 1, 1]", "[0, 0, 1]", "wrong length");
-  refused("[0, 0, 1, 1]", "[0, 0, \"x\", 1]", "non-number");
-  refused("\"photo\"", "\"picture\"", "'photo'");
-  refused("\"cameras\"", "\"views\"", "'cameras'");
+  refused("[0, 0, 1, 1]", "[0, 0, 1]", "world_from_camera[0]: must be an array of 4 numbers");
+  refused("[0, 0, 1, 1]", "[0, 0, \"x\", 1]",
+          "world_from_camera[0][2]: must be a number, is \"x\"");
+  refused("\"photo\"", "\"picture\"", "'photo' is missing");
+  refused("\"cameras\"", "\"views\"", "'cameras' is missing");
   refused("{", "[", "JSON");
   EXPECT_THROW(ReadCameraFile(folder.path() / "none.json"), core::Error);
 }

@@ -1,53 +1,23 @@
 #include "workflows/lift/camera_file.h"
 
-#include <cmath>
-
-#include <nlohmann/json.hpp>
-
-#include "core/error.h"
-#include "core/files.h"
+#include "core/json.h"
 
 namespace simwright::workflows {
 namespace {
 
-using nlohmann::json;
+constexpr double kMaxPixels = 1e6;
 
-double CameraNumber(const json& camera, const char* key, double least, const std::string& where) {
-  const auto found = camera.find(key);
-  if (found == camera.end() || !found->is_number()) {
-    throw core::Error(std::string("has no number '") + key + "'", where);
-  }
-  const double value = found->get<double>();
-  if (!std::isfinite(value) || value < least) {
-    throw core::Error(std::string("'") + key + "' is " + found->dump() + ", too small", where);
-  }
-  return value;
-}
-
-Eigen::Isometry3d Pose(const json& camera, const std::string& where) {
-  const char* expected = "expected 4 rows of 4 numbers: a rotation and a position";
-  const auto rows = camera.find("world_from_camera");
-  if (rows == camera.end() || !rows->is_array() || rows->size() != 4) {
-    throw core::Error("has no 'world_from_camera'", where, expected);
-  }
+Eigen::Isometry3d CameraPose(const core::JsonField& field) {
   Eigen::Matrix4d matrix;
+  const std::vector<core::JsonField> rows = field.Elements(4);
   for (int r = 0; r < 4; ++r) {
-    const json& row = (*rows)[static_cast<size_t>(r)];
-    if (!row.is_array() || row.size() != 4) {
-      throw core::Error("'world_from_camera' has a row of the wrong length", where, expected);
-    }
-    for (int c = 0; c < 4; ++c) {
-      const json& value = row[static_cast<size_t>(c)];
-      if (!value.is_number()) throw core::Error("'world_from_camera' has a non-number", where);
-      matrix(r, c) = value.get<double>();
-    }
+    matrix.row(r) = rows[static_cast<size_t>(r)].Vector<4>();
   }
   const Eigen::Matrix3d turn = matrix.topLeftCorner<3, 3>();
-  if (!matrix.allFinite() || turn.determinant() < 0.0 ||
-      !(turn.transpose() * turn).isIdentity(1e-3) ||
+  if (turn.determinant() < 0.0 || !(turn.transpose() * turn).isIdentity(1e-3) ||
       !matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), 1e-6)) {
-    throw core::Error("'world_from_camera' is not a rotation and a position", where,
-                      "its rotation's columns must be orthonormal and right-handed");
+    field.Fail("is not a rotation and a position",
+               "its rotation's columns must be orthonormal and right-handed");
   }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::Quaterniond(turn).normalized().toRotationMatrix();
@@ -55,38 +25,31 @@ Eigen::Isometry3d Pose(const json& camera, const std::string& where) {
   return pose;
 }
 
+core::Camera CameraFrom(const core::JsonField& field) {
+  core::Camera camera;
+  camera.width = static_cast<int>(field["width"].NumberWithin(1.0, kMaxPixels));
+  camera.height = static_cast<int>(field["height"].NumberWithin(1.0, kMaxPixels));
+  camera.fx = field["fx"].NumberWithin(1e-3);
+  camera.fy = field["fy"].NumberWithin(1e-3);
+  camera.cx = field["cx"].NumberWithin(-kMaxPixels);
+  camera.cy = field["cy"].NumberWithin(-kMaxPixels);
+  camera.world_from_camera = CameraPose(field["world_from_camera"]);
+  return camera;
+}
+
 }  // namespace
 
 std::map<std::string, core::Camera> ReadCameraFile(const std::filesystem::path& path) {
-  json file;
-  try {
-    file = json::parse(core::ReadFile(path, 1 << 26));
-  } catch (const json::exception& error) {
-    throw core::Error("is not JSON", path.string());
-  }
-  if (!file.is_object() || !file.contains("cameras") || !file["cameras"].is_array() ||
-      file["cameras"].empty()) {
-    throw core::Error("has no list 'cameras'", path.string());
-  }
+  const core::JsonDocument document = core::JsonDocument::Read(path, 1 << 26);
+  const core::JsonField list = document.root()["cameras"];
   std::map<std::string, core::Camera> cameras;
-  for (size_t i = 0; i < file["cameras"].size(); ++i) {
-    const json& entry = file["cameras"][i];
-    std::string where = path.string() + ": camera " + std::to_string(i);
-    if (!entry.is_object() || !entry.contains("photo") || !entry["photo"].is_string()) {
-      throw core::Error("has no 'photo'", where);
+  for (const core::JsonField& entry : list.Elements()) {
+    const std::string photo = std::filesystem::path(entry["photo"].Text()).filename();
+    if (!cameras.emplace(photo, CameraFrom(entry)).second) {
+      entry.Fail("the photo '" + photo + "' occurs twice");
     }
-    const std::string photo = std::filesystem::path(entry["photo"].get<std::string>()).filename();
-    where += " (" + photo + ")";
-    core::Camera camera;
-    camera.width = static_cast<int>(std::min(1e6, CameraNumber(entry, "width", 1, where)));
-    camera.height = static_cast<int>(std::min(1e6, CameraNumber(entry, "height", 1, where)));
-    camera.fx = CameraNumber(entry, "fx", 1e-3, where);
-    camera.fy = CameraNumber(entry, "fy", 1e-3, where);
-    camera.cx = CameraNumber(entry, "cx", -1e6, where);
-    camera.cy = CameraNumber(entry, "cy", -1e6, where);
-    camera.world_from_camera = Pose(entry, where);
-    if (!cameras.emplace(photo, camera).second) throw core::Error("occurs twice", where);
   }
+  if (cameras.empty()) list.Fail("has no camera");
   return cameras;
 }
 

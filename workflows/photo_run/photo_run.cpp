@@ -7,13 +7,12 @@
 #include <cstdio>
 #include <functional>
 
-#include <nlohmann/json.hpp>
-
 #include "assets/asset_folder.h"
-#include "assets/asset_json.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/finding_json.h"
 #include "core/image.h"
+#include "core/json.h"
 #include "tasks/task_file.h"
 #include "validation/check.h"
 #include "workflows/lift/lift.h"
@@ -34,7 +33,6 @@ namespace {
 
 constexpr int kPhotoRunTasks = 20;  // enough for every kind of task with an asset and furniture
 
-using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 double RunSeconds(Clock::time_point start) {
@@ -85,8 +83,9 @@ void Furnish(const PhotoRunRequest& request, const PhotoRunFolder& folder,
   if (request.task.empty()) RequireLiftable(folder.Asset());
   const Furniture made =
       MakeFurniture(folder.Asset(), request.furniture, request.seed, folder.Furniture(), progress);
-  const Json scene = {{"furniture", made.name}, {"kind", made.kind}, {"holds_it", made.holds}};
-  core::WriteFile(folder.Scene(), scene.dump(2) + "\n");
+  const core::OrderedJson scene = {
+      {"furniture", made.name}, {"kind", made.kind}, {"holds_it", made.holds}};
+  core::WriteFile(folder.Scene(), core::JsonText(scene));
 }
 
 // Returns the requested task from the generated ones.
@@ -113,10 +112,11 @@ tasks::Task ChosenTask(const PhotoRunRequest& request, const PhotoRunFolder& fol
 
 void MakeTaskFile(const PhotoRunRequest& request, const PhotoRunFolder& folder,
                   core::Progress* progress) {
-  const Json scene = Json::parse(core::ReadFile(folder.Scene(), 1 << 16));
+  const core::JsonDocument scene =
+      core::JsonDocument::Read(folder.Scene(), 1 << 16, "--force starts over");
   TasksRequest tasks;
   tasks.assets = {folder.Asset().string(),
-                  (folder.Furniture() / scene.at("furniture").get<std::string>()).string()};
+                  (folder.Furniture() / scene.root()["furniture"].Text()).string()};
   tasks.output = folder.Tasks();
   tasks.count = kPhotoRunTasks;
   tasks.seed = request.seed;
@@ -177,25 +177,27 @@ std::string WithoutPlace(const core::Error& error) {
   return what.starts_with(place) ? what.substr(place.size()) : what;
 }
 
-PhotoRunOutcome OutcomeOf(const PhotoRunFolder& folder, const Json& report) {
+PhotoRunOutcome OutcomeOf(const PhotoRunFolder& folder, const core::JsonField& report) {
   PhotoRunOutcome outcome;
-  outcome.task = report.at("task").at("name");
-  const Json& success = report.at("success");
-  outcome.episodes = success.at("episodes");
-  outcome.successes = success.at("successes");
-  outcome.interval = {success.at("low"), success.at("high")};
-  outcome.replayed = report.at("trajectory").value("replayed", false);
-  outcome.seconds = report.at("seconds");
+  outcome.task = report["task"]["name"].Text();
+  const core::JsonField success = report["success"];
+  outcome.episodes = success["episodes"].Int();
+  outcome.successes = success["successes"].Int();
+  outcome.interval = {success["low"].Number(), success["high"].Number()};
+  outcome.replayed = report["trajectory"].FlagOr("replayed", false);
+  outcome.seconds = report["seconds"].Number();
   outcome.folder = folder.root;
   outcome.page = folder.Page();
   outcome.picture = folder.Strip();
   outcome.trajectory = folder.Trajectory();
   outcome.findings = assets::ReadAsset(folder.Asset()).findings;
   // Exports of earlier versions have no findings.
-  const core::Findings exported = assets::FindingsFrom(
-      Json::parse(core::ReadFile(folder.Export())).value("findings", Json::array()));
-  outcome.findings.insert(outcome.findings.end(), exported.begin(), exported.end());
-  outcome.json = report.dump(2) + "\n";
+  const core::JsonDocument document =
+      core::JsonDocument::Read(folder.Export(), 1 << 26, "--force starts over");
+  if (document.root().Has("findings")) {
+    const core::Findings exported = core::FindingsFrom(document.root()["findings"]);
+    outcome.findings.insert(outcome.findings.end(), exported.begin(), exported.end());
+  }
   return outcome;
 }
 
@@ -275,11 +277,18 @@ PhotoRunOutcome RunPhoto(const PhotoRunRequest& request, core::Progress* progres
   }
   progress->Stage("page");
   const tasks::Task task = ChosenTask(request, folder);
-  const Json report = PhotoRunReport(request, folder, task, record.stages(), refusal);
-  core::WriteFile(folder.Report(), report.dump(2) + "\n");
-  core::WriteFile(folder.Page(), PhotoRunPage(folder, task, report));
+  const std::string text =
+      core::JsonText(PhotoRunReport(request, folder, task, record.stages(), refusal));
+  const core::JsonDocument report(text, folder.Report().string(), "--force starts over");
+  const std::string page = PhotoRunPage(folder, task, report.root());
+  core::WriteFile(folder.Report(), text);
+  core::WriteFile(folder.Page(), page);
   progress->Finish();
-  if (refusal.empty()) return OutcomeOf(folder, report);
+  if (refusal.empty()) {
+    PhotoRunOutcome outcome = OutcomeOf(folder, report.root());
+    outcome.json = text;
+    return outcome;
+  }
   throw core::Error("there is no trajectory: " + refusal + "; " + folder.Page().string() +
                     " shows its progress");
 }

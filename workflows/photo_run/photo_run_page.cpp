@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <map>
 #include <set>
 #include <vector>
 
 #include "assets/semantic_model.h"
-#include "core/error.h"
 #include "core/files.h"
 #include "rl/training.h"
 #include "tasks/world_state.h"
@@ -18,32 +19,8 @@ namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr const char* kPhotoRunStyle =
-    ":root{color-scheme:light dark;--ink:#1d2327;--soft:#5b666d;--line:#d9dee1;--paper:#fff;"
-    "--panel:#f3f5f6;--accent:#1f5fa8;--good:#2f7a45;--bad:#b5443a}"
-    "@media(prefers-color-scheme:dark){:root{--ink:#e6e9eb;--soft:#9aa5ab;--line:#343b40;"
-    "--paper:#14181b;--panel:#1d2327;--accent:#7db4ee;--good:#7cc792;--bad:#ee8f86}}"
-    "body{font:16px/1.55 system-ui,sans-serif;margin:0 auto;max-width:60rem;padding:1.5rem 1rem "
-    "4rem;background:var(--paper);color:var(--ink)}h1{line-height:1.2;margin:.5em 0 0}"
-    "h2{margin:2.5em 0 .4em;border-top:1px solid var(--line);padding-top:1em}"
-    ".soft,figcaption{color:var(--soft)}figcaption,.soft{font-size:.88rem}figure{margin:1rem 0}"
-    "img{display:block;max-width:100%;height:auto;border-radius:6px;background:#fff}"
-    ".wide{overflow-x:auto}.wide img,.wide table{min-width:44rem}.full img,.wide img{width:100%}"
-    "table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}"
-    "td,th{overflow-wrap:anywhere;padding:.3rem .8rem .3rem 0;text-align:left;border-bottom:1px "
-    "solid "
-    "var(--line);vertical-align:top}th{font-weight:600;font-size:.88rem;color:var(--soft)}"
-    ".n{text-align:right;white-space:nowrap}.tiles{display:grid;grid-template-columns:repeat(auto-"
-    "fit,minmax(9.5rem,"
-    "1fr));gap:.75rem;margin:1.5rem 0}.tile{background:var(--panel);padding:.8rem "
-    "1rem;border-radius:8px;font-size:.88rem}.tile b{display:block;font-size:1.55rem;"
-    "line-height:1.3}.bar{display:block;min-width:6rem;height:.7rem;margin-top:.45rem;"
-    "background:var(--panel);border-radius:3px}.bar i{display:block;height:100%;"
-    "background:var(--accent);border-radius:3px}.good{color:var(--good)}.bad{color:var(--bad)}"
-    "pre{background:var(--panel);padding:.8rem 1rem;border-radius:8px;white-space:pre-wrap;"
-    "overflow-wrap:anywhere}summary{cursor:pointer}li{margin:.4em 0}";
+using core::Markup;
+using Values = std::map<std::string, core::TemplateValue>;
 
 std::string PageNumber(const char* format, double a, double b = 0.0, double c = 0.0) {
   char text[160];
@@ -51,8 +28,8 @@ std::string PageNumber(const char* format, double a, double b = 0.0, double c = 
   return text;
 }
 
-std::string PageText(const Json& json) {
-  return MarkupSafe(json.get<std::string>());
+std::string Escaped(const core::JsonField& field) {
+  return core::EscapedMarkup(field.Text());
 }
 
 std::string PagePercent(double share) {
@@ -72,259 +49,254 @@ std::string Row(const std::string& name, const std::vector<std::string>& figures
   return row + "</tr>\n";
 }
 
-std::string Head(const std::string& name, const std::vector<std::string>& figures) {
-  std::string row = "<tr><th>" + name + "</th>";
-  for (const std::string& figure : figures) row += "<th class=\"n\">" + figure + "</th>";
-  return row + "</tr>\n";
-}
-
 // Returns a bar; `begin` and `end` are fractions of its width.
 std::string Bar(double begin, double end) {
   return "<span class=\"bar\"><i style=\"margin-left:" + PageNumber("%.1f", 100.0 * begin) +
          "%;width:" + PageNumber("%.1f", 100.0 * std::max(0.004, end - begin)) + "%\"></i></span>";
 }
 
-std::string Section(const std::string& title) {
-  return "<h2>" + title + "</h2>\n";
-}
-
 // Returns a figure. `fit`: "full", as wide as the page; "wide", scrolled sideways so that it stays
 // legible.
-std::string PageFigure(const fs::path& file, const std::string& description,
-                       const std::string& caption, const std::string& fit = "full") {
+Markup Figure(const std::string& picture, const std::string& caption, const std::string& fit) {
+  return {"<figure><div class=\"" + fit + "\">" + picture + "</div><figcaption>" +
+          core::EscapedMarkup(caption) + "</figcaption></figure>\n"};
+}
+
+Markup PageFigure(const fs::path& file, const std::string& description, const std::string& caption,
+                  const std::string& fit = "full") {
   const std::string type = file.extension() == ".svg" ? "image/svg+xml" : "image/png";
-  return "<figure><div class=\"" + fit + "\">" +
-         InlinePicture(core::ReadFile(file, 1 << 28), type, description) + "</div><figcaption>" +
-         caption + "</figcaption></figure>\n";
+  return Figure(InlinePicture(core::ReadFile(file, 1 << 28), type, description), caption, fit);
 }
 
 std::string Tile(const std::string& figure, const std::string& what) {
   return "<div class=\"tile\"><b>" + figure + "</b>" + what + "</div>\n";
 }
 
-double Rate(const Json& counts, const char* successes, const char* tries) {
-  return counts.at(successes).get<double>() / std::max(1.0, counts.at(tries).get<double>());
+double Rate(const core::JsonField& counts, const char* successes, const char* tries) {
+  return counts[successes].Number() / std::max(1.0, counts[tries].Number());
 }
 
-std::string Summary(const Json& report) {
-  const Json& success = report.at("success");
-  const Json& trajectory = report.at("trajectory");
+std::string Tiles(const core::JsonField& report) {
+  const core::JsonField success = report["success"];
+  const core::JsonField trajectory = report["trajectory"];
   std::string html =
-      "<p>" + PageText(report.at("task").at("description")) +
-      " From one photo to joint trajectories of a Franka Panda.</p>\n"
-      "<div class=\"tiles\">\n" +
       Tile(PagePercent(Rate(success, "successes", "episodes")),
-           PageNumber("success in %.0f episodes; 95 %%: ", success.at("episodes").get<double>()) +
-               PageNumber("%.1f to %.1f %%", 100.0 * success.at("low").get<double>(),
-                          100.0 * success.at("high").get<double>()));
-  if (success.at("successes").get<int>() > 0) {
-    html += Tile(Duration(success.at("mean_seconds")), "a success, on average");
+           PageNumber("success in %.0f episodes; 95 %%: ", success["episodes"].Number()) +
+               PageNumber("%.1f to %.1f %%", 100.0 * success["low"].Number(),
+                          100.0 * success["high"].Number()));
+  if (success["successes"].Int() > 0) {
+    html += Tile(Duration(success["mean_seconds"].Number()), "a success, on average");
   }
-  if (trajectory.contains("mean_seconds")) {
-    html += Tile(Duration(trajectory.at("mean_seconds")),
+  if (trajectory.Has("mean_seconds")) {
+    html += Tile(Duration(trajectory["mean_seconds"].Number()),
                  std::string("the trajectory; its replay ") +
-                     (trajectory.at("replayed").get<bool>() ? "succeeds" : "fails"));
+                     (trajectory["replayed"].Flag() ? "succeeds" : "fails"));
   }
-  return html + Tile(Duration(report.at("seconds")), "for everything on this page") + "</div>\n";
+  return html + Tile(Duration(report["seconds"].Number()), "for everything on this page");
 }
 
-std::string EstimateRow(const std::string& name, const Json& estimate, double factor,
+std::string EstimateRow(const std::string& name, const core::JsonField& estimate, double factor,
                         const std::string& unit, double actual) {
   return Row(name, {PageNumber("%.3g ", factor * actual) + unit,
-                    PageNumber("%.3g to %.3g ", factor * estimate.at("min").get<double>(),
-                               factor * estimate.at("max").get<double>()) +
+                    PageNumber("%.3g to %.3g ", factor * estimate["min"].Number(),
+                               factor * estimate["max"].Number()) +
                         unit});
 }
 
-std::string AssetTable(const Json& asset) {
-  std::set<std::string> sources;
-  const auto row = [&](const std::string& name, const Json& estimate, double factor,
+std::string AssetRows(const core::JsonField& asset) {
+  const auto row = [&](const std::string& name, const core::JsonField& estimate, double factor,
                        const std::string& unit) {
-    sources.insert(estimate.value("source", ""));
-    return EstimateRow(name, estimate, factor, unit, estimate.at("sample").get<double>());
+    return EstimateRow(name, estimate, factor, unit, estimate["sample"].Number());
   };
-  std::string html = "<table>\n" + Head("", {"this one", "of its kind"});
+  std::string html;
   for (const char* side : {"length", "width", "height"}) {
-    html += row(side, asset.at("size_m").at(side), 100.0, "cm");
+    html += row(side, asset["size_m"][side], 100.0, "cm");
   }
-  sources.insert(asset.at("mass_kg").value("source", ""));
-  html += EstimateRow("mass", asset.at("mass_kg"), 1000.0, "g", asset.at("mass").get<double>());
-  html += row("friction", asset.at("friction"), 1.0, "") +
-          row("restitution", asset.at("restitution"), 1.0, "") + "</table>\n<p class=\"soft\">" +
-          "Material: " + PageText(asset.at("material").at("name")) + ". Ranges from ";
+  html += EstimateRow("mass", asset["mass_kg"], 1000.0, "g", asset["mass"].Number());
+  return html + row("friction", asset["friction"], 1.0, "") +
+         row("restitution", asset["restitution"], 1.0, "");
+}
+
+// Returns the distinct sources of the asset's estimates.
+std::string AssetSources(const core::JsonField& asset) {
+  const core::JsonField size = asset["size_m"];
+  std::set<std::string> sources;
+  for (const core::JsonField& estimate :
+       {size["length"], size["width"], size["height"], asset["mass_kg"], asset["friction"],
+        asset["restitution"]}) {
+    sources.insert(estimate.TextOr("source", ""));
+  }
   std::string joined;
   for (const std::string& source : sources) {
     if (!source.empty()) joined += (joined.empty() ? "" : "; ") + source;
   }
-  return html + MarkupSafe(joined) + ".</p>\n";
+  return joined;
 }
 
-std::string CheckTable(const Json& check) {
-  const Json& rows = check.at("rows");
-  const auto failed = std::count_if(rows.begin(), rows.end(), [](const Json& row) {
-    return row.at("verdict").get<std::string>() == "FAIL";
-  });
-  std::string html =
-      "<details><summary><span class=\"" + std::string(failed ? "bad" : "good") + "\">" +
-      PageNumber("%.0f of %.0f", static_cast<double>(rows.size()) - failed,
-                 static_cast<double>(rows.size())) +
-      " properties pass</span>: geometry, inertia, three readers, a drop test in two "
-      "engines</summary><table>\n" +
-      Head("property", {"figure"});
-  for (const Json& row : rows) {
-    html += "<tr><td>" + PageText(row.at("property")) + "<br/><span class=\"soft\">" +
-            PageText(row.at("sentence")) + "</span></td><td class=\"n\">" +
-            PageNumber("%.4g", row.at("figure").get<double>()) + "</td></tr>\n";
-  }
-  return html + "</table></details>\n";
-}
-
-std::string AssetPart(const PhotoRunFolder& folder, const Json& report) {
-  std::string html =
-      Section("The photo") +
-      PageFigure(folder.Asset() / "lift.png", "The photo, the matte and the reconstructed mesh",
-                 "The photo, its matte, and the reconstructed mesh from the photo's camera.") +
-      "<ul class=\"soft\">";
-  for (const Json& finding : report.at("asset").at("findings")) {
-    html += "<li>" + PageText(finding.at("sentence")) + "</li>";
-  }
-  return html + "</ul>\n" + Section("The asset") +
-         PageFigure(folder.Asset() / "preview.png", "The asset from four sides",
-                    "From four sides; below, the convex collision parts.") +
-         AssetTable(report.at("asset")) + CheckTable(report.at("check"));
-}
-
-// Returns the drawing of the task with the objects of its scene.
-std::string TaskSvg(const PhotoRunFolder& folder, const tasks::Task& task, const Json& scene) {
-  std::vector<assets::SemanticModel> models = {
-      assets::ReadSemanticModel(folder.Asset()),
-      assets::ReadSemanticModel(folder.Furniture() / scene.at("furniture").get<std::string>())};
-  return TaskDrawing(task, tasks::MakeWorldModel(models));
-}
-
-std::string TaskPart(const PhotoRunFolder& folder, const tasks::Task& task, const Json& report) {
-  const Json& scene = report.at("scene");
-  const std::string name = scene.at("furniture");
-  std::string html = Section("The task") + "<figure><div>" +
-                     InlinePicture(TaskSvg(folder, task, scene), "image/svg+xml",
-                                   "The scene from above, and the subtasks") +
-                     "</div><figcaption>" + PageText(report.at("task").at("name")) +
-                     ": the start seen from above, and the subtasks.</figcaption></figure>\n"
-                     "<ol>";
-  for (const Json& subtask : report.at("task").at("subtasks")) {
-    html += "<li>" + PageText(subtask.at("description")) +
-            "<br/><span class=\"soft\">Done: " + PageText(subtask.at("success")) + ".</span></li>";
-  }
-  const bool beside = std::find(task.assets.begin(), task.assets.end(), name) != task.assets.end();
-  return html + "</ol>\n" +
-         PageFigure(folder.Furniture() / name / "preview.png", "The furniture, closed and open",
-                    "Tasks were generated for the asset and " + MarkupSafe(name) + ", which is " +
-                        (scene.at("holds_it").get<bool>() ? "big enough" : "too small") +
-                        " to hold it" + (beside ? "." : "; this task needs the asset alone."));
-}
-
-std::string TrainingPart(const PhotoRunFolder& folder, const Json& report) {
-  const Json& subtasks = report.at("training").at("subtasks");
-  std::string html =
-      Section("Training") + "<p>One policy per subtask, trained in Bullet (docs/skills.md).</p>\n";
-  int number = 0;
-  for (const Json& subtask : subtasks) {
-    const std::string name = subtask.at("name");
-    const fs::path trained = folder.Skill() / (std::to_string(++number) + "_" + name);
-    html += PageFigure(trained / rl::kCurvesFile, "Success and return over the training's samples",
-                       MarkupSafe(name) +
-                           PageNumber(": %.0f decisions in ", subtask.at("samples").get<double>()) +
-                           Duration(subtask.at("seconds")) + ", learnt by " +
-                           PageText(subtask.value("method", Json("training"))) +
-                           ". With sampled actions and easier starts.");
+std::string CheckRows(const std::vector<core::JsonField>& rows) {
+  std::string html;
+  for (const core::JsonField& row : rows) {
+    html += "<tr><td>" + Escaped(row["property"]) + "<br/><span class=\"soft\">" +
+            Escaped(row["sentence"]) + "</span></td><td class=\"n\">" +
+            PageNumber("%.4g", row["figure"].Number()) + "</td></tr>\n";
   }
   return html;
 }
 
-std::string SuccessRow(const std::string& name, const Json& counts, const char* successes,
-                       const char* tries) {
-  if (counts.at(tries).get<int>() == 0) return Row(name, {"not reached", "", ""});
-  const double low = counts.at("low"), high = counts.at("high");
-  return Row(name, {PageNumber("%.0f of %.0f", counts.at(successes).get<double>(),
-                               counts.at(tries).get<double>()),
+void AddAssetPart(const PhotoRunFolder& folder, const core::JsonField& report, Values* values) {
+  const core::JsonField asset = report["asset"];
+  std::string findings;
+  for (const core::JsonField& finding : asset["findings"].Elements()) {
+    findings += "<li>" + Escaped(finding["sentence"]) + "</li>";
+  }
+  const std::vector<core::JsonField> rows = report["check"]["rows"].Elements();
+  const auto passed = std::count_if(rows.begin(), rows.end(), [](const core::JsonField& row) {
+    return row["verdict"].Text() != "FAIL";
+  });
+  values->insert(
+      {{"photo",
+        PageFigure(folder.Asset() / "lift.png", "The photo, the matte and the reconstructed mesh",
+                   "The photo, its matte, and the reconstructed mesh from the photo's camera.")},
+       {"lift_findings", Markup{findings}},
+       {"asset", PageFigure(folder.Asset() / "preview.png", "The asset from four sides",
+                            "From four sides; below, the convex collision parts.")},
+       {"asset_rows", Markup{AssetRows(asset)}},
+       {"material", asset["material"]["name"].Text()},
+       {"sources", AssetSources(asset)},
+       {"check_class", passed == std::ssize(rows) ? "good" : "bad"},
+       {"check_count", std::to_string(passed) + " of " + std::to_string(rows.size())},
+       {"check_rows", Markup{CheckRows(rows)}}});
+}
+
+// Returns the drawing of the task with the objects of its scene.
+std::string TaskSvg(const PhotoRunFolder& folder, const tasks::Task& task,
+                    const core::JsonField& scene) {
+  std::vector<assets::SemanticModel> models = {
+      assets::ReadSemanticModel(folder.Asset()),
+      assets::ReadSemanticModel(folder.Furniture() / scene["furniture"].Text())};
+  return TaskDrawing(task, tasks::MakeWorldModel(models));
+}
+
+void AddTaskPart(const PhotoRunFolder& folder, const tasks::Task& task,
+                 const core::JsonField& report, Values* values) {
+  const core::JsonField scene = report["scene"];
+  const std::string name = scene["furniture"].Text();
+  std::string subtasks;
+  for (const core::JsonField& subtask : report["task"]["subtasks"].Elements()) {
+    subtasks += "<li>" + Escaped(subtask["description"]) +
+                "<br/><span class=\"soft\">Done: " + Escaped(subtask["success"]) + ".</span></li>";
+  }
+  const bool beside = std::find(task.assets.begin(), task.assets.end(), name) != task.assets.end();
+  values->insert(
+      {{"task",
+        Figure(InlinePicture(TaskSvg(folder, task, scene), "image/svg+xml",
+                             "The scene from above, and the subtasks"),
+               report["task"]["name"].Text() + ": the start seen from above, and the subtasks.",
+               "")},
+       {"subtasks", Markup{subtasks}},
+       {"furniture",
+        PageFigure(folder.Furniture() / name / "preview.png", "The furniture, closed and open",
+                   "Tasks were generated for the asset and " + name + ", which is " +
+                       (scene["holds_it"].Flag() ? "big enough" : "too small") + " to hold it" +
+                       (beside ? "." : "; this task needs the asset alone."))}});
+}
+
+Markup TrainingFigures(const PhotoRunFolder& folder, const core::JsonField& report) {
+  Markup html;
+  int number = 0;
+  for (const core::JsonField& subtask : report["training"]["subtasks"].Elements()) {
+    const std::string name = subtask["name"].Text();
+    const fs::path trained = folder.Skill() / (std::to_string(++number) + "_" + name);
+    html.text +=
+        PageFigure(trained / rl::kCurvesFile, "Success and return over the training's samples",
+                   name + PageNumber(": %.0f decisions in ", subtask["samples"].Number()) +
+                       Duration(subtask["seconds"].Number()) + ", learnt by " +
+                       subtask.TextOr("method", "training") +
+                       ". With sampled actions and easier starts.")
+            .text;
+  }
+  return html;
+}
+
+std::string SuccessRow(const std::string& name, const core::JsonField& counts,
+                       const char* successes, const char* tries) {
+  if (counts[tries].Int() == 0) return Row(name, {"not reached", "", ""});
+  const double low = counts["low"].Number(), high = counts["high"].Number();
+  return Row(name, {PageNumber("%.0f of %.0f", counts[successes].Number(), counts[tries].Number()),
                     PagePercent(Rate(counts, successes, tries)),
                     PageNumber("%.1f to %.1f %%", 100.0 * low, 100.0 * high) + Bar(low, high)});
 }
 
-std::string SuccessPart(const PhotoRunFolder& folder, const Json& report) {
-  const Json& success = report.at("success");
-  std::string html = Section("How often it succeeds") + "<table>\n" +
-                     Head("", {"successes", "rate", "95 % interval"});
-  for (const Json& subtask : success.at("subtasks")) {
-    html += SuccessRow(PageText(subtask.at("name")), subtask, "succeeded", "tried");
+Markup SuccessRows(const core::JsonField& success) {
+  const std::vector<core::JsonField> subtasks = success["subtasks"].Elements();
+  Markup html;
+  for (const core::JsonField& subtask : subtasks) {
+    html.text += SuccessRow(Escaped(subtask["name"]), subtask, "succeeded", "tried");
   }
-  if (success.at("subtasks").size() > 1) {
-    html += SuccessRow("<b>the whole task</b>", success, "successes", "episodes");
+  if (subtasks.size() > 1) {
+    html.text += SuccessRow("<b>the whole task</b>", success, "successes", "episodes");
   }
-  return html +
-         "</table>\n<p class=\"soft\">Starts are newly sampled: positions within 15 cm, masses "
-         "and frictions. A subtask is tried if the previous ones succeeded. Success must hold at "
-         "the episode's end.</p>\n" +
-         Section("One episode") +
-         PageFigure(folder.Strip(), "The robot in twelve moments of each subtask",
-                    "One episode, from left to right: twelve moments of each subtask.", "wide");
+  return html;
 }
 
-std::string JointRow(const Json& joint) {
+std::string JointRow(const core::JsonField& joint) {
   std::vector<std::string> figures;
   for (const char* quantity : {"position", "velocity", "acceleration", "jerk"}) {
-    figures.push_back(PagePercent(joint.at(quantity).at("share").get<double>()));
+    figures.push_back(PagePercent(joint[quantity]["share"].Number()));
   }
-  figures.push_back(PageNumber("%.2f", 1000.0 * joint.at("deviation").get<double>()));
-  return Row(PageText(joint.at("name")), figures);
+  figures.push_back(PageNumber("%.2f", 1000.0 * joint["deviation"].Number()));
+  return Row(Escaped(joint["name"]), figures);
 }
 
-std::string TrajectoryPart(const Json& report) {
-  const Json& trajectory = report.at("trajectory");
-  std::string html = Section("The trajectory");
-  if (trajectory.contains("refusal")) {
-    return html + "<p class=\"bad\">There is none: " + PageText(trajectory.at("refusal")) +
-           ".</p>\n";
+Markup TrajectoryPart(const core::JsonField& trajectory) {
+  if (trajectory.Has("refusal")) {
+    return {"<p class=\"bad\">There is none: " + Escaped(trajectory["refusal"]) + ".</p>\n"};
   }
-  const bool replayed = trajectory.at("replayed");
-  html += "<p>" + PageText(trajectory.at("file")) +
-          PageNumber(
-              ", 1 kHz from rest to rest, %.2f s, %.2f times the recorded duration; the tool "
-              "deviates by at most %.2f mm. ",
-              trajectory.at("mean_seconds").get<double>(), trajectory.at("stretch").get<double>(),
-              1000.0 * trajectory.at("tool_deviation").get<double>()) +
-          "<span class=\"" +
-          (replayed ? "good\">Its replay from the file alone succeeds."
-                    : "bad\">Its replay from the file alone fails.") +
-          "</span></p>\n<div class=\"wide\"><table>\n" +
-          Head("largest share of each limit",
-               {"position", "velocity", "acceleration", "jerk", "deviation, mrad or mm"});
-  for (const Json& joint : trajectory.at("joints")) html += JointRow(joint);
-  return html + "</table></div>\n";
+  const bool replayed = trajectory["replayed"].Flag();
+  std::string rows;
+  for (const core::JsonField& joint : trajectory["joints"].Elements()) rows += JointRow(joint);
+  return {core::FillTemplate(
+      data::photo_run_trajectory_html(),
+      {{"file", trajectory["file"].Text()},
+       {"seconds", PageNumber("%.2f", trajectory["mean_seconds"].Number())},
+       {"stretch", PageNumber("%.2f", trajectory["stretch"].Number())},
+       {"deviation", PageNumber("%.2f", 1000.0 * trajectory["tool_deviation"].Number())},
+       {"replay_class", replayed ? "good" : "bad"},
+       {"replay", replayed ? "succeeds" : "fails"},
+       {"joint_rows", Markup{rows}}})};
 }
 
-std::string TimesPart(const Json& report) {
-  const double whole = std::max(1e-9, report.at("seconds").get<double>());
-  std::string html = Section("Time") + "<table>\n";
-  for (const Json& stage : report.at("stages")) {
-    const double seconds = stage.at("seconds");
-    html += "<tr><td>" + PageText(stage.at("name")) + "</td><td class=\"n\">" + Duration(seconds) +
-            "</td><td>" + Bar(0.0, seconds / whole) + "</td></tr>\n";
+Markup TimeRows(const core::JsonField& report) {
+  const double whole = std::max(1e-9, report["seconds"].Number());
+  Markup html;
+  for (const core::JsonField& stage : report["stages"].Elements()) {
+    const double seconds = stage["seconds"].Number();
+    html.text += "<tr><td>" + Escaped(stage["name"]) + "</td><td class=\"n\">" + Duration(seconds) +
+                 "</td><td>" + Bar(0.0, seconds / whole) + "</td></tr>\n";
   }
-  return html + "<tr><td><b>all</b></td><td class=\"n\">" + Duration(whole) +
-         "</td><td></td></tr>\n</table>\n" + Section("To reproduce") + "<pre>" +
-         PageText(report.at("command")) + "</pre>\n";
+  return html;
 }
 
 }  // namespace
 
 std::string PhotoRunPage(const PhotoRunFolder& folder, const tasks::Task& task,
-                         const Json& report) {
-  return PageStart("From a photo to a skill: " + report.at("category").get<std::string>(),
-                   kPhotoRunStyle) +
-         Summary(report) + AssetPart(folder, report) + TaskPart(folder, task, report) +
-         TrainingPart(folder, report) + SuccessPart(folder, report) + TrajectoryPart(report) +
-         TimesPart(report) + PageEnd();
+                         const core::JsonField& report) {
+  Values values = {
+      {"description", report["task"]["description"].Text()},
+      {"tiles", Markup{Tiles(report)}},
+      {"training", TrainingFigures(folder, report)},
+      {"success_rows", SuccessRows(report["success"])},
+      {"episode",
+       PageFigure(folder.Strip(), "The robot in twelve moments of each subtask",
+                  "One episode, from left to right: twelve moments of each subtask.", "wide")},
+      {"trajectory", TrajectoryPart(report["trajectory"])},
+      {"time_rows", TimeRows(report)},
+      {"seconds", Duration(report["seconds"].Number())},
+      {"command", report["command"].Text()}};
+  AddAssetPart(folder, report, &values);
+  AddTaskPart(folder, task, report, &values);
+  return Page("From a photo to a skill: " + report["category"].Text(), data::photo_run_css(),
+              core::FillTemplate(data::photo_run_html(), values));
 }
 
 }  // namespace simwright::workflows

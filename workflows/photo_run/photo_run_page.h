@@ -2,8 +2,7 @@
 
 #include <string>
 
-#include <nlohmann/json.hpp>
-
+#include "core/json.h"
 #include "tasks/task.h"
 #include "workflows/photo_run/photo_run_folder.h"
 
@@ -12,6 +11,6 @@ namespace simwright::workflows {
 // Returns a photo run as one HTML page without scripts or external files: its pictures, task,
 // success rate and times. `report` is PhotoRunReport's. Throws core::Error if a picture is missing.
 std::string PhotoRunPage(const PhotoRunFolder& folder, const tasks::Task& task,
-                         const nlohmann::ordered_json& report);
+                         const core::JsonField& report);
 
 }  // namespace simwright::workflows

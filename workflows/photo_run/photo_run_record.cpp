@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "core/content_hash.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kPhotoRunFormat = 1;
 constexpr const char* kFile = "run.json";
@@ -99,33 +96,30 @@ PhotoRunRecord::PhotoRunRecord(const PhotoRunRequest& request) : folder_(request
 }
 
 void PhotoRunRecord::Read(const fs::path& file) {
-  try {
-    const Json text = Json::parse(core::ReadFile(file, 1 << 20));
-    if (text.at("format").get<int>() != kPhotoRunFormat) {
-      throw core::Error("was written by another version", file.string(), "--force starts over");
-    }
-    for (const auto& [name, value] : text.at("inputs").items()) {
-      inputs_.emplace_back(name, value.get<std::string>());
-    }
-    for (const Json& stage : text.at("stages")) {
-      stages_.push_back({stage.at("name").get<std::string>(), stage.at("seconds").get<double>(),
-                         stage.at("done").get<bool>()});
-    }
-  } catch (const nlohmann::json::exception&) {
-    throw core::Error("is damaged", file.string(), "--force starts over");
+  const core::JsonDocument document =
+      core::JsonDocument::Read(file, 1 << 20, "--force starts over");
+  const core::JsonField text = document.root();
+  if (text["format"].Int() != kPhotoRunFormat) {
+    throw core::Error("was written by another version", file.string(), "--force starts over");
+  }
+  for (const auto& [name, value] : text["inputs"].Members()) {
+    inputs_.emplace_back(name, value.Text());
+  }
+  for (const core::JsonField& stage : text["stages"].Elements()) {
+    stages_.push_back({stage["name"].Text(), stage["seconds"].Number(), stage["done"].Flag()});
   }
 }
 
 void PhotoRunRecord::Write() const {
-  Json text;
+  core::OrderedJson text;
   text["format"] = kPhotoRunFormat;
   for (const auto& [name, value] : inputs_) text["inputs"][name] = value;
-  text["stages"] = Json::array();
+  text["stages"] = core::OrderedJson::array();
   for (const RunStage& stage : stages_) {
     text["stages"].push_back(
         {{"name", stage.name}, {"seconds", stage.seconds}, {"done", stage.done}});
   }
-  core::WriteFile(folder_ / kFile, text.dump(2) + "\n");
+  core::WriteFile(folder_ / kFile, core::JsonText(text));
 }
 
 void PhotoRunRecord::RequireSame(const Inputs& wanted) const {

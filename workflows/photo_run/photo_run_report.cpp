@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "assets/asset_folder.h"
-#include "core/error.h"
 #include "core/files.h"
 #include "core/finding_json.h"
 
@@ -11,27 +10,24 @@ namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::ordered_json;
+constexpr const char* kStageRemedy = "--force starts over";
+constexpr std::uint64_t kMaxStageBytes = 1 << 26;
 
-Json ReadJson(const fs::path& file) {
-  try {
-    return Json::parse(core::ReadFile(file, 1 << 26));
-  } catch (const nlohmann::json::exception&) {
-    throw core::Error("is damaged", file.string(), "--force starts over");
-  }
+core::OrderedJson ReadJson(const fs::path& file) {
+  return core::ParseOrderedJson(core::ReadFile(file, kMaxStageBytes), file.string(), kStageRemedy);
 }
 
 // Returns the named members of `from`.
-Json Some(const Json& from, const std::vector<std::string>& names) {
-  Json some;
+core::OrderedJson Some(const core::OrderedJson& from, const std::vector<std::string>& names) {
+  core::OrderedJson some = core::OrderedJson::object();
   for (const std::string& name : names) {
     if (from.contains(name)) some[name] = from.at(name);
   }
   return some;
 }
 
-Json TaskJson(const tasks::Task& task) {
-  Json json = {{"name", task.name}, {"description", task.description}};
+core::OrderedJson TaskJson(const tasks::Task& task) {
+  core::OrderedJson json = {{"name", task.name}, {"description", task.description}};
   for (const tasks::Subtask& subtask : task.subtasks) {
     json["subtasks"].push_back({{"name", subtask.name},
                                 {"description", subtask.description},
@@ -40,26 +36,31 @@ Json TaskJson(const tasks::Task& task) {
   return json;
 }
 
-Json SuccessJson(const Json& rollout) {
-  Json json = Some(rollout, {"episodes", "successes", "low", "high", "mean_seconds"});
-  for (const Json& subtask : rollout.at("subtasks")) {
-    const rl::Interval interval =
-        rl::WilsonInterval(subtask.at("succeeded").get<int>(), subtask.at("tried").get<int>());
-    json["subtasks"].push_back({{"name", subtask.at("name")},
-                                {"tried", subtask.at("tried")},
-                                {"succeeded", subtask.at("succeeded")},
+core::OrderedJson SuccessJson(const fs::path& rollout) {
+  core::OrderedJson json =
+      Some(ReadJson(rollout), {"episodes", "successes", "low", "high", "mean_seconds"});
+  const core::JsonDocument document =
+      core::JsonDocument::Read(rollout, kMaxStageBytes, kStageRemedy);
+  for (const core::JsonField& subtask : document.root()["subtasks"].Elements()) {
+    const int succeeded = subtask["succeeded"].Int(), tried = subtask["tried"].Int();
+    const rl::Interval interval = rl::WilsonInterval(succeeded, tried);
+    json["subtasks"].push_back({{"name", subtask["name"].Text()},
+                                {"tried", tried},
+                                {"succeeded", succeeded},
                                 {"low", interval.low},
                                 {"high", interval.high}});
   }
   return json;
 }
 
-Json TrajectoryJson(const PhotoRunFolder& folder, const std::string& refusal) {
+core::OrderedJson TrajectoryJson(const PhotoRunFolder& folder, const std::string& refusal) {
   if (!refusal.empty()) return {{"refusal", refusal}};
-  const Json made = ReadJson(folder.Export());
-  Json json = {{"file", folder.Trajectory().filename().string()}};
-  json.update(Some(made, {"mean_seconds", "stretch", "tool_deviation", "joints"}));
-  json["replayed"] = ReadJson(folder.Replay()).at("successes").get<int>() > 0;
+  core::OrderedJson json = {{"file", folder.Trajectory().filename().string()}};
+  json.update(
+      Some(ReadJson(folder.Export()), {"mean_seconds", "stretch", "tool_deviation", "joints"}));
+  const core::JsonDocument replay =
+      core::JsonDocument::Read(folder.Replay(), kMaxStageBytes, kStageRemedy);
+  json["replayed"] = replay.root()["successes"].Int() > 0;
   return json;
 }
 
@@ -84,32 +85,27 @@ std::string Quoted(const std::string& text) {
 
 }  // namespace
 
-Json PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder,
-                    const tasks::Task& task, const std::vector<RunStage>& stages,
-                    const std::string& refusal) {
-  Json report = {{"format", 1},
-                 {"photo", request.photo.filename().string()},
-                 {"category", request.category},
-                 {"seed", request.seed},
-                 {"command", PhotoRunCommand(request)}};
-  try {
-    report["asset"] = {{"folder", folder.asset_name}};
-    report["asset"].update(Some(ReadJson(folder.Asset() / "asset.json"),
-                                {"category", "size_m", "mass_kg", "material", "friction",
-                                 "restitution", "mass", "findings"}));
-    report["findings"] = core::FindingsJson(assets::ReadAsset(folder.Asset()).findings);
-    report["check"] = Some(ReadJson(folder.Check()), {"passed", "rows"});
-    report["scene"] = ReadJson(folder.Scene());
-    report["task"] = TaskJson(task);
-    report["training"] = Some(ReadJson(folder.Skill() / "report.json"), {"subtasks", "chain"});
-    report["success"] = SuccessJson(ReadJson(folder.Rollout()));
-    report["trajectory"] = TrajectoryJson(folder, refusal);
-  } catch (const nlohmann::json::exception& error) {
-    throw core::Error("a stage's file is damaged: " + std::string(error.what()),
-                      folder.root.string(), "--force starts over");
-  }
+core::OrderedJson PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder,
+                                 const tasks::Task& task, const std::vector<RunStage>& stages,
+                                 const std::string& refusal) {
+  core::OrderedJson report = {{"format", 1},
+                              {"photo", request.photo.filename().string()},
+                              {"category", request.category},
+                              {"seed", request.seed},
+                              {"command", PhotoRunCommand(request)}};
+  report["asset"] = {{"folder", folder.asset_name}};
+  report["asset"].update(Some(ReadJson(folder.Asset() / "asset.json"),
+                              {"category", "size_m", "mass_kg", "material", "friction",
+                               "restitution", "mass", "findings"}));
+  report["findings"] = core::FindingsJson(assets::ReadAsset(folder.Asset()).findings);
+  report["check"] = Some(ReadJson(folder.Check()), {"passed", "rows"});
+  report["scene"] = ReadJson(folder.Scene());
+  report["task"] = TaskJson(task);
+  report["training"] = Some(ReadJson(folder.Skill() / "report.json"), {"subtasks", "chain"});
+  report["success"] = SuccessJson(folder.Rollout());
+  report["trajectory"] = TrajectoryJson(folder, refusal);
   double seconds = 0.0;
-  report["stages"] = Json::array();
+  report["stages"] = core::OrderedJson::array();
   for (const RunStage& stage : stages) {
     report["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
     seconds += stage.seconds;

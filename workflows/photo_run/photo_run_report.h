@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "core/json.h"
 #include "tasks/task.h"
 #include "workflows/photo_run/photo_run.h"
 #include "workflows/photo_run/photo_run_folder.h"
@@ -15,9 +14,9 @@ namespace simwright::workflows {
 // Returns the results of all stages, read from their files (docs/run.md describes the members).
 // Contains no path outside the folder. `refusal`: the reason why there is no trajectory; empty if
 // there is one. Throws core::Error if a stage's file is missing or damaged.
-nlohmann::ordered_json PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder,
-                                      const tasks::Task& task, const std::vector<RunStage>& stages,
-                                      const std::string& refusal);
+core::OrderedJson PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder,
+                                 const tasks::Task& task, const std::vector<RunStage>& stages,
+                                 const std::string& refusal);
 
 // Returns the command that repeats the run, with only the options that differ from the defaults.
 std::string PhotoRunCommand(const PhotoRunRequest& request);

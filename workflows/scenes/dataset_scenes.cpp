@@ -4,11 +4,10 @@
 #include <charconv>
 #include <sstream>
 
-#include <nlohmann/json.hpp>
-
 #include "assets/asset.h"
 #include "assets/asset_folder.h"
 #include "core/error.h"
+#include "core/json.h"
 #include "scene/dataset/tokens.h"
 
 namespace simwright::workflows {
@@ -79,11 +78,11 @@ scene::CategoryFolders FoldersOfCategories(const fs::path& path, const fs::path&
 void RequireSameAssets(const scene::SceneDataset& dataset, const scene::AssetSet& asset_set,
                        const std::set<std::string>& categories) {
   const std::string& text = dataset.parts().front().origin().assets;
-  const auto hashes = nlohmann::json::parse(text, nullptr, false);
-  if (!hashes.is_object()) return;
+  const auto hashes = core::TryParseJson(text);
+  if (!hashes) return;
   for (const std::string& category : categories) {
-    const auto hash = hashes.find(category);
-    if (hash == hashes.end() || !hash->is_string()) continue;
+    const core::Json* hash = core::FindMember(*hashes, category.c_str());
+    if (hash == nullptr || !hash->is_string()) continue;
     if (hash->get<std::string>() != asset_set.HashOf(category)) {
       throw core::Error("the asset for the category \"" + category +
                         "\" is not the one the scenes were made with");

@@ -1,14 +1,11 @@
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "core/finding_json.h"
+#include "core/json.h"
 #include "workflows/scenes/scene_evaluation.h"
 
 namespace simwright::workflows {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double kOneInTenThousand = 1e4, kCentimetres = 100.0;
 
@@ -67,15 +64,15 @@ std::string DistanceLine(const char* name, const DistanceSummary& summary) {
   return line;
 }
 
-Json PenetrationJson(const PenetrationSummary& summary) {
+core::OrderedJson PenetrationJson(const PenetrationSummary& summary) {
   return {{"parts_median_cm", kCentimetres * summary.median},
           {"parts_mean_cm", kCentimetres * summary.mean},
           {"boxes_median_cm", kCentimetres * summary.box_median},
           {"boxes_mean_cm", kCentimetres * summary.box_mean}};
 }
 
-Json SetJson(const SceneSetMetrics& set) {
-  Json json;
+core::OrderedJson SetJson(const SceneSetMetrics& set) {
+  core::OrderedJson json;
   json["scenes"] = set.scenes;
   json["objects_mean"] = set.mean_objects;
   json["kl_1e4"] = kOneInTenThousand * set.divergence;
@@ -88,7 +85,7 @@ Json SetJson(const SceneSetMetrics& set) {
   return json;
 }
 
-Json DistanceJson(const DistanceSummary& summary) {
+core::OrderedJson DistanceJson(const DistanceSummary& summary) {
   return {{"mean", summary.mean},
           {"least", summary.least},
           {"tenth", summary.tenth},
@@ -125,7 +122,7 @@ std::string EvaluationTable(const SceneEvaluation& evaluation) {
 }
 
 std::string EvaluationJson(const SceneEvaluation& evaluation) {
-  Json json;
+  core::OrderedJson json;
   json["type"] = evaluation.type;
   json["features"] = evaluation.features;
   json["classifier_rate"] = evaluation.learning_rate;
@@ -136,7 +133,7 @@ std::string EvaluationJson(const SceneEvaluation& evaluation) {
   if (evaluation.training) json["training"] = SetJson(*evaluation.training);
   json["training_scenes"] = evaluation.training_scenes;
   if (evaluation.sample_distance) {
-    Json& nearest = json["nearest_training_scene_m"];
+    core::OrderedJson& nearest = json["nearest_training_scene_m"];
     nearest["lever"] = evaluation.distance.lever;
     nearest["cut_off"] = evaluation.distance.cut_off;
     nearest["samples"] = DistanceJson(*evaluation.sample_distance);
@@ -146,7 +143,7 @@ std::string EvaluationJson(const SceneEvaluation& evaluation) {
   }
   json["findings"] = core::FindingsJson(evaluation.findings);
   json["seconds"] = evaluation.seconds;
-  return json.dump(2) + "\n";
+  return core::JsonText(json);
 }
 
 }  // namespace simwright::workflows

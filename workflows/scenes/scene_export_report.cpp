@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
+#include "core/json.h"
 #include "workflows/scenes/scene_export.h"
 
 namespace simwright::workflows {
@@ -20,15 +19,15 @@ std::string ExportLine(const SceneStability& check) {
   return text + "\n";
 }
 
-nlohmann::ordered_json MotionJson(const LargestDisplacement& motion) {
-  nlohmann::ordered_json json;
+core::OrderedJson MotionJson(const LargestDisplacement& motion) {
+  core::OrderedJson json;
   json["moved_m"] = motion.moved;  // null if it is not finite
   json["thing"] = motion.name;
   return json;
 }
 
-nlohmann::ordered_json CheckJson(const SceneStability& check) {
-  nlohmann::ordered_json json;
+core::OrderedJson CheckJson(const SceneStability& check) {
+  core::OrderedJson json;
   json["scene"] = check.name;
   json["things"] = check.objects;
   json["still"] = check.Still();
@@ -44,10 +43,10 @@ int CountSentence(const std::vector<SceneStability>& checks,
                                         [&](const SceneStability& one) { return (one.*still)(); }));
 }
 
-nlohmann::ordered_json ChecksJson(const SceneExportReport& report) {
-  nlohmann::ordered_json json;
+core::OrderedJson ChecksJson(const SceneExportReport& report) {
+  core::OrderedJson json;
   json["still_share"] = report.StableFraction();
-  json["checks"] = nlohmann::ordered_json::array();
+  json["checks"] = core::OrderedJson::array();
   for (const SceneStability& check : report.checks) json["checks"].push_back(CheckJson(check));
   return json;
 }
@@ -78,16 +77,16 @@ std::string ExportTable(const SceneExportReport& report) {
 }
 
 std::string ExportJson(const SceneExportReport& report) {
-  nlohmann::ordered_json json;
+  core::OrderedJson json;
   json["output"] = report.output.string();
   json["scenes"] = report.scenes;
   json["assets"] = report.assets;
   if (!report.checks.empty()) json.update(ChecksJson(report));
-  return json.dump(2) + "\n";
+  return core::JsonText(json);
 }
 
 std::string StabilityJson(const SceneExportReport& report) {
-  return ChecksJson(report).dump(2) + "\n";
+  return core::JsonText(ChecksJson(report));
 }
 
 }  // namespace simwright::workflows

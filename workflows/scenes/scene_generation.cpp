@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <optional>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "scene/dataset/generation.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/shard_claim.h"
@@ -38,10 +37,10 @@ void CheckHulls(const std::vector<std::string>& hulls, const scene::Vocabulary& 
 }
 
 std::string AssetsText(const scene::AssetSet& asset_set, const scene::Vocabulary& vocabulary) {
-  nlohmann::ordered_json json;
+  core::OrderedJson json;
   for (const std::string& category : vocabulary.categories)
     json[category] = asset_set.HashOf(category);
-  return json.dump();
+  return core::JsonLine(json);
 }
 
 // Returns the shard in its current state, or an empty one.

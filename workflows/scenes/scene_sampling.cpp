@@ -3,12 +3,11 @@
 #include <chrono>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "assets/asset.h"
 #include "core/content_hash.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
@@ -94,13 +93,13 @@ fs::path SamplingWeights(const SceneSamplingRequest& request) {
 }
 
 scene::ShardOrigin OriginOf(const SceneSamplingRequest& request, const fs::path& weights) {
-  nlohmann::ordered_json settings;
+  core::OrderedJson settings;
   settings["weights"] = core::ContentHash(core::ReadFile(weights));
   settings["steps"] = request.sampling.steps;
   settings["eta"] = request.sampling.eta;
   settings["raw"] = request.raw;
   if (!request.raw) settings["lowering"] = kLowering;
-  return {request.sampling.seed, 0, "{}", settings.dump(), SIMWRIGHT_VERSION};
+  return {request.sampling.seed, 0, "{}", core::JsonLine(settings), SIMWRIGHT_VERSION};
 }
 
 }  // namespace
@@ -165,12 +164,13 @@ std::string SamplingTable(const SceneSamplingReport& report) {
 }
 
 std::string SamplingJson(const SceneSamplingReport& report) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::parse(StatisticsJson(report.statistics));
+  core::OrderedJson json =
+      core::ParseOrderedJson(StatisticsJson(report.statistics), "the statistics");
   json["output"] = report.output.string();
   json["raw"] = report.raw;
   json["sampling_seconds"] = report.sampling_seconds;
   json["physics_seconds"] = report.physics_seconds;
-  return json.dump(2) + "\n";
+  return core::JsonText(json);
 }
 
 }  // namespace simwright::workflows

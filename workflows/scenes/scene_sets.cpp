@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
+#include "core/json.h"
 #include "scene/asset_set/asset_set_folder.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
@@ -97,9 +96,9 @@ void Sample(const SceneEvaluationRequest& request, const fs::path& weights,
 // Warns if the samples are not the model's raw output.
 void WarnOfPhysics(const scene::SceneDataset& samples, const fs::path& path,
                    core::Findings* findings) {
-  const auto settings = nlohmann::json::parse(samples.parts().front().origin().settings, nullptr,
-                                              /*allow_exceptions=*/false);
-  if (settings.is_object() && settings.contains("raw") && settings["raw"] == true) return;
+  const auto settings = core::TryParseJson(samples.parts().front().origin().settings);
+  const core::Json* raw = settings ? core::FindMember(*settings, "raw") : nullptr;
+  if (raw != nullptr && raw->is_boolean() && raw->get<bool>()) return;
   findings->push_back({"scenes-processed", core::Severity::kWarning, path.string(),
                        "these scenes are not a model's raw samples: their penetration was "
                        "resolved (sample with --raw)",

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
+#include "core/json.h"
 #include "workflows/scenes/scene_generation.h"
 
 namespace simwright::workflows {
@@ -73,7 +72,7 @@ std::string StatisticsTable(const SceneStatistics& statistics) {
 }
 
 std::string StatisticsJson(const SceneStatistics& statistics) {
-  nlohmann::ordered_json json;
+  core::OrderedJson json;
   json["type"] = statistics.type;
   json["scenes"] = statistics.scenes;
   json["attempts"] = statistics.attempts;
@@ -90,7 +89,7 @@ std::string StatisticsJson(const SceneStatistics& statistics) {
   json["drawn_by_objects"] = statistics.drawn_counts;
   json["scenes_by_objects"] = statistics.scene_counts;
   if (statistics.elsewhere > 0) json["parts_elsewhere"] = statistics.elsewhere;
-  return json.dump(2) + "\n";
+  return core::JsonText(json);
 }
 
 }  // namespace simwright::workflows

@@ -2,10 +2,8 @@
 
 #include <atomic>
 
-#include <nlohmann/json.hpp>
-
-#include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "rl/policy_file.h"
 #include "rl/training.h"
@@ -16,8 +14,6 @@
 namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
-
-using nlohmann::json;
 
 constexpr const char* kTunedFile = "backward.json";
 constexpr const char* kBeforeFile = "policy_before.pt";
@@ -38,7 +34,7 @@ int SuccessesOfBoth(const TunedPair& pair, const rl::Policy& first, const rl::Po
   return successes;
 }
 
-json TextOf(const BackwardTuning& tuning) {
+core::Json TextOf(const BackwardTuning& tuning) {
   return {{"samples", tuning.samples},
           {"seconds", tuning.seconds},
           {"before", tuning.before},
@@ -51,18 +47,16 @@ json TextOf(const BackwardTuning& tuning) {
 std::optional<BackwardTuning> ReadBackwardTuning(const RunSkill& first) {
   const fs::path file = first.folder / kTunedFile;
   if (!fs::exists(file)) return std::nullopt;
-  try {
-    const json text = json::parse(core::ReadFile(file, 1 << 20));
-    BackwardTuning tuning;
-    tuning.samples = text.at("samples").get<std::int64_t>();
-    tuning.seconds = text.at("seconds").get<double>();
-    tuning.before = text.at("before").get<double>();
-    tuning.after = text.at("after").get<double>();
-    tuning.kept = text.at("kept").get<bool>();
-    return tuning;
-  } catch (const json::exception&) {
-    throw core::Error("is damaged", file.string(), "remove it to tune the skill again");
-  }
+  const core::JsonDocument document =
+      core::JsonDocument::Read(file, 1 << 20, "remove it to tune the skill again");
+  const core::JsonField text = document.root();
+  BackwardTuning tuning;
+  tuning.samples = text["samples"].Integer();
+  tuning.seconds = text["seconds"].Number();
+  tuning.before = text["before"].Number();
+  tuning.after = text["after"].Number();
+  tuning.kept = text["kept"].Flag();
+  return tuning;
 }
 
 BackwardTuning TuneBackward(const TrainRequest& request, const SkillRun& run, const TunedPair& pair,
@@ -116,7 +110,7 @@ BackwardTuning TuneBackward(const TrainRequest& request, const SkillRun& run, co
     rl::WritePolicy(before, first.folder / kBeforeFile);
     rl::WritePolicy(after, first.folder / rl::kPolicyFile);
   }
-  core::WriteFile(first.folder / kTunedFile, TextOf(tuning).dump(2) + "\n");
+  core::WriteFile(first.folder / kTunedFile, core::JsonText(TextOf(tuning)));
   return tuning;
 }
 

@@ -2,10 +2,9 @@
 
 #include <sstream>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "robot/trajectory_file.h"
 #include "robot/trajectory_joints.h"
 
@@ -13,7 +12,6 @@ namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
 
-using nlohmann::json;
 using robot::JointTrajectory;
 
 constexpr char kGripperKey[] = "gripper";      // in the arm's file: there is also a gripper file
@@ -32,7 +30,7 @@ std::string WithSpaces(const std::vector<std::string>& names) {
 void WriteWithMetadata(const JointTrajectory& trajectory, const fs::path& file) {
   robot::WriteTrajectory(file, trajectory);
   if (file.extension() != ".json") return;
-  core::WriteFile(MetadataFileBeside(file), json(trajectory.metadata).dump(2) + "\n");
+  core::WriteFile(MetadataFileBeside(file), core::JsonText(core::Json(trajectory.metadata)));
 }
 
 std::map<std::string, std::string> NotesOfJson(const fs::path& file) {
@@ -41,11 +39,11 @@ std::map<std::string, std::string> NotesOfJson(const fs::path& file) {
     throw core::Error("its metadata file is not beside it", file.string(),
                       "keep " + metadata.filename().string() + " with it, or export YAML");
   }
-  try {
-    return json::parse(core::ReadFile(metadata, 1 << 24)).get<std::map<std::string, std::string>>();
-  } catch (const json::exception&) {
-    throw core::Error("has no metadata", metadata.string(), "export it again");
-  }
+  const core::JsonDocument document =
+      core::JsonDocument::Read(metadata, 1 << 24, "export it again");
+  std::map<std::string, std::string> lines;
+  for (const auto& [name, field] : document.root().Members()) lines[name] = field.Text();
+  return lines;
 }
 
 // Renames the joints to the robot's own names, which the metadata lists.

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "core/camera.h"
+#include "core/json.h"
 #include "core/progress.h"
 #include "render/forward.h"
 #include "workflows/skills/posed_scene.h"
@@ -13,8 +12,6 @@
 
 namespace simwright::workflows {
 namespace {
-
-using nlohmann::json;
 
 constexpr int kFrames = 12, kColumns = 6;
 constexpr int kSize = 320;           // pixels a side
@@ -63,16 +60,16 @@ double Rounded(double value) {
   return std::round(value * 1e5) / 1e5;
 }
 
-json MomentJson(const RecordedMoment& moment, const skills::SkillVariant& variant) {
-  json line;
+core::Json MomentJson(const RecordedMoment& moment, const skills::SkillVariant& variant) {
+  core::Json line;
   for (const double joint : moment.arm) line["q"].push_back(Rounded(joint));
   line["q"].push_back(Rounded(moment.leader));
-  line["things"] = json::array();
+  line["things"] = core::Json::array();
   for (const int object : variant.placed) {
     const auto t = static_cast<size_t>(object);
     const Eigen::Isometry3d& pose = moment.state.roots[t];
     const Eigen::Quaterniond turn(pose.linear());
-    json numbers;
+    core::Json numbers;
     for (const double number : {pose.translation().x(), pose.translation().y(),
                                 pose.translation().z(), turn.w(), turn.x(), turn.y(), turn.z()}) {
       numbers.push_back(Rounded(number));
@@ -83,21 +80,21 @@ json MomentJson(const RecordedMoment& moment, const skills::SkillVariant& varian
   return line;
 }
 
-json HeadJson(const SkillRun& run, const std::vector<RunSkill>& skills,
-              const ChainRecording& recording) {
+core::Json HeadJson(const SkillRun& run, const std::vector<RunSkill>& skills,
+                    const ChainRecording& recording) {
   const RecordedSubtask& first = recording.subtasks.front();
   const skills::SkillVariant& variant = VariantOf(skills.front(), first);
-  json head = {{"format", 1},
-               {"robot", run.robot},
-               {"task", run.set.tasks[static_cast<size_t>(first.start.variant)].name},
-               {"episode", recording.episode},
-               {"success", recording.success},
-               {"rate", skills.front().evaluated->options.control_rate},
-               {"joints", MotionJointsOf(*skills.front().evaluated->robot).names},
-               {"things", json::array()}};
+  core::Json head = {{"format", 1},
+                     {"robot", run.robot},
+                     {"task", run.set.tasks[static_cast<size_t>(first.start.variant)].name},
+                     {"episode", recording.episode},
+                     {"success", recording.success},
+                     {"rate", skills.front().evaluated->options.control_rate},
+                     {"joints", MotionJointsOf(*skills.front().evaluated->robot).names},
+                     {"things", core::Json::array()}};
   for (const int object : variant.placed) {
     const tasks::ArticulatedObject& known = variant.model.objects[static_cast<size_t>(object)];
-    json joints = json::array();
+    core::Json joints = core::Json::array();
     for (const tasks::ObjectJoint& joint : known.joints) joints.push_back(joint.name);
     head["things"].push_back({{"name", known.name}, {"joints", joints}});
   }
@@ -133,11 +130,11 @@ core::Image RolloutStrip(const SkillRun& run, const std::vector<RunSkill>& skill
 
 std::string RolloutPoses(const SkillRun& run, const std::vector<RunSkill>& skills,
                          const ChainRecording& recording) {
-  std::string text = HeadJson(run, skills, recording).dump() + "\n";
+  std::string text = core::JsonLine(HeadJson(run, skills, recording)) + "\n";
   for (size_t k = 0; k < recording.subtasks.size(); ++k) {
     const RecordedSubtask& subtask = recording.subtasks[k];
     for (const RecordedMoment& moment : subtask.moments) {
-      text += MomentJson(moment, VariantOf(skills[k], subtask)).dump() + "\n";
+      text += core::JsonLine(MomentJson(moment, VariantOf(skills[k], subtask))) + "\n";
     }
   }
   return text;

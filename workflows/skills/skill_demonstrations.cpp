@@ -2,17 +2,13 @@
 
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
-#include "skills/episode.h"
+#include "core/json.h"
 #include "skills/start_pool.h"
 #include "skills/tool_command.h"
 
 namespace simwright::workflows {
 namespace {
-
-using nlohmann::json;
 
 constexpr size_t kValidEvery = 10;
 constexpr char kVersion[] = SIMWRIGHT_VERSION;
@@ -156,12 +152,22 @@ robot::Demonstration DemonstrationOf(const ObservationWriter& writer,
   return demonstration;
 }
 
-json PlanJson(const SkillMetadata& metadata, const ChainRecording& recording) {
-  json plan = {{"episode", metadata.episode}, {"task", metadata.task}};
+core::Json PlanJson(const SkillMetadata& metadata, const ChainRecording& recording) {
+  core::Json plan = {{"episode", metadata.episode}, {"task", metadata.task}};
   for (const RecordedSubtask& subtask : recording.subtasks) {
     plan["starts"].push_back(skills::StartText(subtask.start));
     plan["steps"].push_back(subtask.decisions.size());
   }
+  return plan;
+}
+
+DemonstrationPlan PlanFrom(const core::JsonField& field, const SkillMetadata& metadata) {
+  DemonstrationPlan plan;
+  plan.metadata = metadata;
+  plan.metadata.episode = field["episode"].Unsigned();
+  plan.metadata.task = field["task"].Text();
+  plan.starts = field["starts"].Texts();
+  plan.steps = field["steps"].Ints();
   return plan;
 }
 
@@ -199,23 +205,24 @@ robot::DemonstrationSet DemonstrationsOf(const SkillRun& run, const std::vector<
   const ObservationWriter writer(skills, recordings);
   robot::DemonstrationSet set;
   const SkillMetadata metadata = MetadataOf(run, skills, recordings.front(), seed);
-  json kwargs = {{"robot", metadata.robot},
-                 {"run", metadata.run},
-                 {"assets", metadata.assets},
-                 {"seed", seed},
-                 {"subtasks", metadata.subtasks},
-                 {"decision_seconds", skills.front().evaluated->options.decision_seconds()}};
+  core::Json kwargs = {{"robot", metadata.robot},
+                       {"run", metadata.run},
+                       {"assets", metadata.assets},
+                       {"seed", seed},
+                       {"subtasks", metadata.subtasks},
+                       {"decision_seconds", skills.front().evaluated->options.decision_seconds()}};
   int horizon = 0;
   for (const RunSkill& skill : skills) horizon += skill.evaluated->options.decisions();
   kwargs["horizon"] = horizon;
   for (const ChainRecording& recording : recordings) {
-    set.metadata.push_back(PlanJson(MetadataOf(run, skills, recording, seed), recording).dump());
+    set.metadata.push_back(
+        core::JsonLine(PlanJson(MetadataOf(run, skills, recording, seed), recording)));
     set.demonstrations.push_back(DemonstrationOf(writer, recording, skills));
   }
   SplitEpisodes(&set);
   set.env_name = "simwright/" + metadata.task;
   set.env_version = kVersion;
-  set.env_kwargs = kwargs.dump();
+  set.env_kwargs = core::JsonLine(kwargs);
   return set;
 }
 
@@ -229,28 +236,23 @@ size_t ValidSteps(const robot::DemonstrationSet& set) {
 
 std::vector<DemonstrationPlan> PlansOf(const robot::DemonstrationSet& set,
                                        const std::string& where) {
+  const core::JsonDocument kwargs(set.env_kwargs, where, kDemonstrationRemedy);
+  const core::JsonField root = kwargs.root();
+  SkillMetadata metadata;
+  metadata.robot = root["robot"].Text();
+  metadata.run = root["run"].Text();
+  metadata.assets = root["assets"].Texts();
+  metadata.seed = root["seed"].Unsigned();
+  metadata.subtasks = root["subtasks"].Texts();
   std::vector<DemonstrationPlan> plans;
-  try {
-    const json kwargs = json::parse(set.env_kwargs);
-    SkillMetadata metadata;
-    metadata.robot = kwargs.at("robot").get<std::string>();
-    metadata.run = kwargs.at("run").get<std::string>();
-    metadata.assets = kwargs.at("assets").get<std::vector<std::string>>();
-    metadata.seed = kwargs.at("seed").get<std::uint64_t>();
-    metadata.subtasks = kwargs.at("subtasks").get<std::vector<std::string>>();
-    json episodes = kwargs.value("episodes", json::array());
-    for (const std::string& note : set.metadata) episodes.push_back(json::parse(note));
-    for (const json& one : episodes) {
-      DemonstrationPlan& plan = plans.emplace_back();
-      plan.metadata = metadata;
-      plan.metadata.episode = one.at("episode").get<std::uint64_t>();
-      plan.metadata.task = one.at("task").get<std::string>();
-      plan.starts = one.at("starts").get<std::vector<std::string>>();
-      plan.steps = one.at("steps").get<std::vector<int>>();
+  if (root.Has("episodes")) {
+    for (const core::JsonField& one : root["episodes"].Elements()) {
+      plans.push_back(PlanFrom(one, metadata));
     }
-  } catch (const json::exception&) {
-    throw core::Error("its metadata does not describe the starts of its episodes", where,
-                      kDemonstrationRemedy);
+  }
+  for (const std::string& note : set.metadata) {
+    const core::JsonDocument plan(note, where, kDemonstrationRemedy);
+    plans.push_back(PlanFrom(plan.root(), metadata));
   }
   if (plans.size() != set.demonstrations.size()) {
     throw core::Error("its metadata describes " + std::to_string(plans.size()) +

@@ -7,11 +7,10 @@
 #include <set>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/files.h"
 #include "core/finding_json.h"
+#include "core/json.h"
 #include "workflows/skills/file_replay.h"
 #include "workflows/skills/motion_files.h"
 #include "workflows/skills/skill_demonstrations.h"
@@ -20,8 +19,6 @@
 namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
-
-using nlohmann::json;
 
 constexpr double kCloser = 0.25;  // of the default deviation
 // The largest speed-ups over the recording: unbounded (the limits apply), twice, and as recorded.
@@ -260,7 +257,7 @@ std::string Deviation(const JointMargins& joint) {
   return text;
 }
 
-json WorstJson(const robot::WorstValue& worst) {
+core::Json WorstJson(const robot::WorstValue& worst) {
   return {
       {"value", worst.value}, {"limit", worst.limit}, {"share", worst.ratio}, {"time", worst.time}};
 }
@@ -336,15 +333,15 @@ std::string ExportTable(const ExportReport& report) {
 }
 
 std::string ExportJson(const ExportReport& report) {
-  json text = {{"output", report.output.string()},
-               {"episodes", report.episodes},
-               {"tried", report.tried},
-               {"succeeded", report.succeeded},
-               {"left_out", report.succeeded - report.episodes},
-               {"closer", report.closer},
-               {"slowed", report.slowed}};
+  core::Json text = {{"output", report.output.string()},
+                     {"episodes", report.episodes},
+                     {"tried", report.tried},
+                     {"succeeded", report.succeeded},
+                     {"left_out", report.succeeded - report.episodes},
+                     {"closer", report.closer},
+                     {"slowed", report.slowed}};
   text["findings"] = core::FindingsJson(report.findings);
-  if (report.joints.empty()) return text.dump(2) + "\n";
+  if (report.joints.empty()) return core::JsonText(text);
   text["mean_seconds"] = report.seconds;
   text["stretch"] = report.stretch;
   text["tool_deviation"] = report.tool_deviation;
@@ -356,7 +353,7 @@ std::string ExportJson(const ExportReport& report) {
                               {"jerk", WorstJson(joint.worst.jerk)},
                               {"deviation", joint.deviation}});
   }
-  return text.dump(2) + "\n";
+  return core::JsonText(text);
 }
 
 }  // namespace simwright::workflows

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "skills/start_pool.h"
 
 namespace simwright::workflows {
 namespace {
-
-using nlohmann::json;
 
 constexpr const char* kMetadataRemedy = "give a file of `simwright export`, with its metadata";
 
@@ -31,15 +27,21 @@ std::uint64_t NumberField(const std::string& text, const char* key, const std::s
                     kMetadataRemedy);
 }
 
-void ReadSubtasks(const std::string& text, SkillMetadata* metadata) {
+// Returns a metadata entry that is JSON.
+core::JsonDocument JsonEntry(const std::map<std::string, std::string>& lines, const char* key,
+                             const std::string& where) {
+  return core::JsonDocument(MetadataLine(lines, key, where), where + ": " + key, kMetadataRemedy);
+}
+
+void ReadSubtasks(const core::JsonField& field, SkillMetadata* metadata) {
   double last = 0.0;
-  for (const json& one : json::parse(text)) {
-    const SubtaskTimes times{one.at("begin").get<double>(), one.at("end").get<double>()};
-    if (!(times.begin >= last) || !(times.end > times.begin) || !std::isfinite(times.end)) {
-      throw std::invalid_argument("times that do not increase");
+  for (const core::JsonField& one : field.Elements()) {
+    const SubtaskTimes times{one["begin"].Number(), one["end"].Number()};
+    if (!(times.begin >= last) || !(times.end > times.begin)) {
+      one.Fail("has times that do not increase");
     }
     last = times.end;
-    metadata->subtasks.push_back(one.at("name").get<std::string>());
+    metadata->subtasks.push_back(one["name"].Text());
     metadata->times.push_back(times);
   }
 }
@@ -68,7 +70,7 @@ SkillMetadata MetadataOf(const SkillRun& run, const std::vector<RunSkill>& skill
 }
 
 std::map<std::string, std::string> MetadataLines(const SkillMetadata& metadata) {
-  json subtasks = json::array();
+  core::Json subtasks = core::Json::array();
   for (size_t i = 0; i < metadata.subtasks.size(); ++i) {
     subtasks.push_back({{"name", metadata.subtasks[i]},
                         {"begin", metadata.times[i].begin},
@@ -77,11 +79,11 @@ std::map<std::string, std::string> MetadataLines(const SkillMetadata& metadata) 
   return {{"robot", metadata.robot},
           {"task", metadata.task},
           {"run", metadata.run},
-          {"assets", json(metadata.assets).dump()},
+          {"assets", core::JsonLine(core::Json(metadata.assets))},
           {"seed", std::to_string(metadata.seed)},
           {"episode", std::to_string(metadata.episode)},
           {"start", metadata.start},
-          {"subtasks", subtasks.dump()}};
+          {"subtasks", core::JsonLine(subtasks)}};
 }
 
 SkillMetadata MetadataFrom(const std::map<std::string, std::string>& lines,
@@ -93,16 +95,10 @@ SkillMetadata MetadataFrom(const std::map<std::string, std::string>& lines,
   metadata.start = MetadataLine(lines, "start", where);
   metadata.seed = NumberField(MetadataLine(lines, "seed", where), "seed", where);
   metadata.episode = NumberField(MetadataLine(lines, "episode", where), "episode", where);
-  try {
-    metadata.assets =
-        json::parse(MetadataLine(lines, "assets", where)).get<std::vector<std::string>>();
-    ReadSubtasks(MetadataLine(lines, "subtasks", where), &metadata);
-  } catch (const json::exception&) {
-    throw core::Error("the entries 'assets' and 'subtasks' are damaged", where, kMetadataRemedy);
-  } catch (const std::invalid_argument& error) {
-    throw core::Error(std::string("the entry 'subtasks' has ") + error.what(), where,
-                      kMetadataRemedy);
-  }
+  const core::JsonDocument assets = JsonEntry(lines, "assets", where);
+  metadata.assets = assets.root().Texts();
+  const core::JsonDocument subtasks = JsonEntry(lines, "subtasks", where);
+  ReadSubtasks(subtasks.root(), &metadata);
   return metadata;
 }
 

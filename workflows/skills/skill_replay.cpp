@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "workflows/skills/file_replay.h"
 #include "workflows/skills/motion_files.h"
@@ -13,8 +12,6 @@
 namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
-
-using nlohmann::json;
 
 bool IsDemonstrations(const fs::path& file) {
   return file.extension() == ".hdf5" || file.extension() == ".h5";
@@ -94,16 +91,16 @@ std::string ReplayTable(const ReplayReport& report) {
 }
 
 std::string ReplayJson(const ReplayReport& report) {
-  json text = {{"episodes", report.episodes.size()},
-               {"successes", report.successes},
-               {"low", report.interval.low},
-               {"high", report.interval.high},
-               {"subtasks", report.subtasks}};
+  core::Json text = {{"episodes", report.episodes.size()},
+                     {"successes", report.successes},
+                     {"low", report.interval.low},
+                     {"high", report.interval.high},
+                     {"subtasks", report.subtasks}};
   for (const ReplayedEpisode& episode : report.episodes) {
     text["replays"].push_back(
         {{"name", episode.name}, {"success", episode.success}, {"subtasks", episode.successes}});
   }
-  return text.dump(2) + "\n";
+  return core::JsonText(text);
 }
 
 }  // namespace simwright::workflows

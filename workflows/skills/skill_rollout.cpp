@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/files.h"
 #include "core/image.h"
+#include "core/json.h"
 #include "rl/policy_file.h"
 #include "rl/training.h"
 #include "skills/skill_evaluation.h"
@@ -103,17 +102,17 @@ std::string RolloutTable(const RolloutReport& report) {
 }
 
 std::string RolloutJson(const RolloutReport& report) {
-  nlohmann::json text = {{"episodes", report.chain.outcomes.size()},
-                         {"successes", report.chain.successes},
-                         {"low", report.chain.interval.low},
-                         {"high", report.chain.interval.high},
-                         {"mean_seconds", report.seconds}};
+  core::Json text = {{"episodes", report.chain.outcomes.size()},
+                     {"successes", report.chain.successes},
+                     {"low", report.chain.interval.low},
+                     {"high", report.chain.interval.high},
+                     {"mean_seconds", report.seconds}};
   for (size_t k = 0; k < report.subtasks.size(); ++k) {
     text["subtasks"].push_back({{"name", report.subtasks[k]},
                                 {"tried", report.chain.tried[k]},
                                 {"succeeded", report.chain.succeeded[k]}});
   }
-  return text.dump(2) + "\n";
+  return core::JsonText(text);
 }
 
 }  // namespace simwright::workflows

@@ -3,26 +3,22 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <set>
 
-#include <nlohmann/json.hpp>
-
 #include "assets/semantic_model.h"
 #include "core/content_hash.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "robot/panda_model.h"
 #include "tasks/task_file.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
-
-using nlohmann::json;
 
 constexpr int kSkillRunFormat = 2;
 constexpr const char* kRunFile = "run.json";
@@ -36,8 +32,8 @@ std::string SomeNames(const tasks::TaskSet& set) {
   return set.tasks.size() > 8 ? names + " ..." : names;
 }
 
-json RunJson(const SkillRun& run) {
-  json text;
+core::Json RunJson(const SkillRun& run) {
+  core::Json text;
   text["format"] = kSkillRunFormat;
   text["robot"] = run.robot;
   text["environments"] = run.environments;
@@ -53,9 +49,9 @@ json RunJson(const SkillRun& run) {
 }
 
 // Runs from before friction was sampled used the robot's own.
-std::optional<skills::FactorRange> FingerFrictionOf(const json& text) {
-  if (!text.contains("finger_friction")) return std::nullopt;
-  const auto range = text["finger_friction"].get<std::array<double, 2>>();
+std::optional<skills::FactorRange> FingerFrictionOf(const core::JsonField& text) {
+  if (!text.Has("finger_friction")) return std::nullopt;
+  const std::vector<double> range = text["finger_friction"].Numbers(2);
   return skills::FactorRange{range[0], range[1]};
 }
 
@@ -106,7 +102,7 @@ void WriteRun(const SkillRun& given) {
   SkillRun run = given;
   run.hashes = HashesOf(run.set);
   const fs::path file = run.folder / kRunFile;
-  const std::string text = RunJson(run).dump(2) + "\n";
+  const std::string text = core::JsonText(RunJson(run));
   if (fs::exists(file)) {
     if (core::ReadFile(file) != text) {
       throw core::Error("the folder has a run with other tasks, assets or options",
@@ -126,22 +122,19 @@ SkillRun ReadRun(const fs::path& folder) {
   }
   SkillRun run;
   run.folder = folder;
-  try {
-    const json text = json::parse(core::ReadFile(file, 1 << 24));
-    if (text.at("format").get<int>() != kSkillRunFormat) {
-      throw core::Error("was written by another version", file.string(), "train again");
-    }
-    run.robot = text.at("robot").get<std::string>();
-    run.environments = text.at("environments").get<int>();
-    run.seed = text.at("seed").get<std::uint64_t>();
-    run.hashes = text.at("asset_hashes").get<std::vector<std::string>>();
-    run.options.episode_seconds = text.at("episode_seconds").get<double>();
-    run.options.discount = text.at("discount").get<double>();
-    run.options.action = skills::ActionSpaceOf(text.at("action").get<std::string>());
-    run.options.finger_friction = FingerFrictionOf(text);
-  } catch (const json::exception&) {
-    throw core::Error("is damaged", file.string(), "train again");
+  const core::JsonDocument document = core::JsonDocument::Read(file, 1 << 24, "train again");
+  const core::JsonField text = document.root();
+  if (text["format"].Int() != kSkillRunFormat) {
+    throw core::Error("was written by another version", file.string(), "train again");
   }
+  run.robot = text["robot"].Text();
+  run.environments = text["environments"].Int();
+  run.seed = text["seed"].Unsigned();
+  run.hashes = text["asset_hashes"].Texts();
+  run.options.episode_seconds = text["episode_seconds"].Number();
+  run.options.discount = text["discount"].Number();
+  run.options.action = skills::ActionSpaceOf(text["action"].Text());
+  run.options.finger_friction = FingerFrictionOf(text);
   run.set = tasks::ReadTaskFile(folder / kTasksFile);
   const std::vector<std::string> now = HashesOf(run.set);
   for (size_t i = 0; i < now.size(); ++i) {

@@ -3,11 +3,10 @@
 #include <cstdio>
 #include <optional>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/files.h"
 #include "core/folder_lock.h"
+#include "core/json.h"
 #include "rl/policy_file.h"
 #include "rl/training.h"
 #include "skills/start_pool.h"
@@ -19,11 +18,9 @@ namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
 
-using nlohmann::json;
-
 constexpr const char* kEndsFile = "ends.jsonl";  // ends of successful episodes
 
-json IntervalJson(const skills::SkillEvaluation& evaluation) {
+core::Json IntervalJson(const skills::SkillEvaluation& evaluation) {
   return {{"episodes", evaluation.episodes.size()},
           {"successes", evaluation.successes},
           {"rate", evaluation.rate()},
@@ -215,16 +212,16 @@ std::string TrainTable(const TrainReport& report) {
 }
 
 std::string TrainJson(const TrainReport& report) {
-  json text;
+  core::Json text;
   text["folder"] = report.folder.string();
   text["success"] = report.success();
   for (const TrainedSkill& skill : report.skills) {
-    json one = {{"name", skill.name},
-                {"samples", skill.samples},
-                {"seconds", skill.seconds},
-                {"method", skill.Method()},
-                {"imitated", skill.shares.imitated},
-                {"own_starts", IntervalJson(skill.own)}};
+    core::Json one = {{"name", skill.name},
+                      {"samples", skill.samples},
+                      {"seconds", skill.seconds},
+                      {"method", skill.Method()},
+                      {"imitated", skill.shares.imitated},
+                      {"own_starts", IntervalJson(skill.own)}};
     if (!skill.handover.episodes.empty()) {
       one["after_the_one_before"] = IntervalJson(skill.handover);
       one["handover_loss"] = skill.HandoverLoss();
@@ -246,7 +243,7 @@ std::string TrainJson(const TrainReport& report) {
                      {"tried", report.chain.tried},
                      {"succeeded", report.chain.succeeded}};
   }
-  return text.dump(2) + "\n";
+  return core::JsonText(text);
 }
 
 }  // namespace simwright::workflows

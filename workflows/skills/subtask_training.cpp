@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "rl/policy_file.h"
 #include "rl/training.h"
 #include "skills/scripted_expert.h"
@@ -16,26 +15,22 @@ namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
 
-using nlohmann::json;
-
 constexpr const char* kDoneFile = "trained.json";
 // The number of episodes of an examination, which takes four seconds on two cores. 124 successes
 // give an interval whose lower bound is above 0.92, the default target.
 constexpr int kExamined = 128;
 
 Trained ReadTrained(const fs::path& file) {
-  try {
-    const json text = json::parse(core::ReadFile(file, 1 << 20));
-    Trained trained;
-    trained.samples = text.at("samples").get<std::int64_t>();
-    trained.seconds = text.at("seconds").get<double>();
-    trained.learnt = text.at("learnt").get<bool>();
-    trained.shares.imitated = text.value("imitated", std::int64_t{0});
-    trained.shares.critic_alone = text.value("critic_alone", std::int64_t{0});
-    return trained;
-  } catch (const json::exception&) {
-    throw core::Error("is damaged", file.string(), "remove it to continue the training");
-  }
+  const core::JsonDocument document =
+      core::JsonDocument::Read(file, 1 << 20, "remove it to continue the training");
+  const core::JsonField text = document.root();
+  Trained trained;
+  trained.samples = text["samples"].Integer();
+  trained.seconds = text["seconds"].Number();
+  trained.learnt = text["learnt"].Flag();
+  if (text.Has("imitated")) trained.shares.imitated = text["imitated"].Integer();
+  if (text.Has("critic_alone")) trained.shares.critic_alone = text["critic_alone"].Integer();
+  return trained;
 }
 
 // Returns true if the request allows more samples and time than the subtask has used.
@@ -175,13 +170,13 @@ Trained TrainSubtask(const TrainRequest& request, const SkillRun& run, const Run
   trained.seconds = result.last.seconds;
   trained.learnt = result.end == rl::TrainingEnd::kSuccess;
   trained.shares = SharesOf(trained.samples, options.ppo, run.environments, run.options.action);
-  json text = {{"samples", trained.samples},
-               {"seconds", trained.seconds},
-               {"learnt", trained.learnt},
-               {"imitated", trained.shares.imitated},
-               {"critic_alone", trained.shares.critic_alone},
-               {"physics_failures", environment.failures()}};
-  core::WriteFile(done, text.dump(2) + "\n");
+  core::Json text = {{"samples", trained.samples},
+                     {"seconds", trained.seconds},
+                     {"learnt", trained.learnt},
+                     {"imitated", trained.shares.imitated},
+                     {"critic_alone", trained.shares.critic_alone},
+                     {"physics_failures", environment.failures()}};
+  core::WriteFile(done, core::JsonText(text));
   return trained;
 }
 

@@ -1,16 +1,28 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+
+#include "core/text_template.h"
 
 namespace simwright::workflows {
 
-// Escapes the characters of `text` that are special in HTML and SVG.
-std::string MarkupSafe(const std::string& text);
+// The files of workflows/templates/, embedded.
+namespace data {
 
-// Returns the head of a self-contained page, up to <body> and its heading; `style` is CSS. Together
-// with PageEnd it is well-formed XML if the content between them is.
-std::string PageStart(const std::string& title, const std::string& style);
-std::string PageEnd();
+std::string_view page_html();
+std::string_view task_page_html();
+std::string_view task_page_css();
+std::string_view task_section_html();
+std::string_view task_drawing_svg();
+std::string_view photo_run_html();
+std::string_view photo_run_css();
+std::string_view photo_run_trajectory_html();
+
+}  // namespace data
+
+// Returns a self-contained page. It is well-formed XML if its body is.
+std::string Page(const std::string& title, std::string_view css, const std::string& body);
 
 // Returns an <img> with its data embedded. `type`: "image/png", "image/svg+xml". `description` is
 // the alternative text.

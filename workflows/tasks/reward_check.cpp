@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/files.h"
 #include "core/finding_json.h"
 #include "core/finding_text.h"
+#include "core/json.h"
 #include "reward/reward_program.h"
 #include "tasks/verification/subtask_verifier.h"
 #include "tasks/world_state.h"
@@ -117,7 +116,7 @@ std::string RewardCheckText(const RewardCheckReport& report) {
 }
 
 std::string RewardCheckJson(const RewardCheckReport& report) {
-  nlohmann::ordered_json json;
+  core::OrderedJson json;
   json["program"] = report.subject;
   json["passed"] = report.passed();
   json["findings"] = core::FindingsJson(report.findings);
@@ -126,7 +125,7 @@ std::string RewardCheckJson(const RewardCheckReport& report) {
     json["success"] = report.has_success;
     json["components"] = report.components;
     json["operations"] = report.operations;
-    json["reads"] = nlohmann::ordered_json::array();
+    json["reads"] = core::OrderedJson::array();
     for (const reward::RewardSlot& slot : report.reads) {
       json["reads"].push_back({{"input", reward::RewardInputName(slot.input)},
                                {"asset", slot.asset},
@@ -135,7 +134,7 @@ std::string RewardCheckJson(const RewardCheckReport& report) {
     }
   }
   // A program may contain invalid UTF-8.
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return core::JsonText(json, core::InvalidUtf8::kReplace);
 }
 
 }  // namespace simwright::workflows

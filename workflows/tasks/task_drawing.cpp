@@ -57,7 +57,7 @@ std::string Circle(const Eigen::Vector2d& center, double radius, const std::stri
 
 std::string SvgText(double x, double y, const std::string& style, const std::string& text) {
   return "<text x=\"" + SvgNumber(x) + "\" y=\"" + SvgNumber(y) + "\" " + style + ">" +
-         MarkupSafe(text) + "</text>";
+         core::EscapedMarkup(text) + "</text>";
 }
 
 // Draws the outline of each link from above, in the object's colour.
@@ -139,13 +139,7 @@ std::string TaskDrawing(const tasks::Task& task, const tasks::WorldModel& model)
   const int columns = std::clamp(count, 1, kInARow), rows = std::max((count + 2) / kInARow, 1);
   const double width = kPlan + columns * (kBoxWidth + kGap) + 4.0;
   const double height = std::max(kPlan, rows * (kBoxHeight + 16.0)) + 4.0;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + SvgNumber(width) +
-                    "\" height=\"" + SvgNumber(height) + "\" viewBox=\"0 0 " + SvgNumber(width) +
-                    " " + SvgNumber(height) +
-                    "\"><style>text{font-family:sans-serif;fill:#222}.title{font-size:12px;"
-                    "font-weight:bold}.small{font-size:10px;fill:#555}.thing{font-size:9px;"
-                    "text-anchor:middle}</style>" +
-                    DrawPlan(task, model);
+  std::string svg = DrawPlan(task, model);
   for (int i = 0; i < count; ++i) {
     const double x = kPlan + kGap + (i % kInARow) * (kBoxWidth + kGap);
     const double y = 2.0 + (i / kInARow) * (kBoxHeight + 16.0);
@@ -157,7 +151,9 @@ std::string TaskDrawing(const tasks::Task& task, const tasks::WorldModel& model)
     svg += wraps ? SvgText(x - 20.0, middle, "class=\"small\"", "...") : arrow;
     svg += DrawSubtask(task.subtasks[static_cast<std::size_t>(i)], i + 1, x, y);
   }
-  return svg + "</svg>\n";
+  return core::FillTemplate(
+      data::task_drawing_svg(),
+      {{"width", SvgNumber(width)}, {"height", SvgNumber(height)}, {"content", core::Markup{svg}}});
 }
 
 }  // namespace simwright::workflows

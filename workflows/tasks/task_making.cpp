@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 #include "core/error.h"
 #include "core/files.h"
 #include "core/finding_json.h"
 #include "core/finding_text.h"
+#include "core/json.h"
 #include "tasks/language/task_generation.h"
 #include "tasks/rules/rule_tasks.h"
 #include "tasks/task_file.h"
@@ -123,12 +122,12 @@ std::string TasksTable(const TasksReport& report) {
 }
 
 std::string TasksJson(const TasksReport& report) {
-  nlohmann::ordered_json json;
+  core::OrderedJson json;
   json["file"] = report.file.string();
   json["page"] = report.page.string();
   json["passed"] = report.passed();
   json["repaired"] = report.repaired;
-  json["tasks"] = nlohmann::ordered_json::array();
+  json["tasks"] = core::OrderedJson::array();
   for (const tasks::Task& task : report.set.tasks) {
     json["tasks"].push_back({{"name", task.name},
                              {"subtasks", task.subtasks.size()},
@@ -138,7 +137,7 @@ std::string TasksJson(const TasksReport& report) {
   }
   json["dropped"] = report.dropped;
   json["findings"] = core::FindingsJson(report.findings);
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return core::JsonText(json, core::InvalidUtf8::kReplace);
 }
 
 }  // namespace simwright::workflows
