@@ -259,10 +259,11 @@ void GltfDocument::PutSparse(const Json& accessor, size_t components, int type, 
       count > (bytes.size() - start) / (size * components)) {
     Fail("a sparse accessor leads beyond its buffer");
   }
+  const size_t elements = numbers->size() / components;
   for (size_t i = 0; i < count; ++i) {
     const char* index = index_bytes.data() + index_start + i * index_size;
     const double at = Component(index, index_type, false);
-    if (!(at >= 0.0) || at >= static_cast<double>(numbers->size() / components)) {
+    if (!(at >= 0.0) || at >= static_cast<double>(elements)) {
       Fail("a sparse accessor names an element that is not there");
     }
     for (size_t k = 0; k < components; ++k) {

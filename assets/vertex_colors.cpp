@@ -164,8 +164,9 @@ class Atlas {
   }
   // Returns the centre of a block's texel, origin at the image's lower left.
   Eigen::Vector2f Uv(int block, int x, int y) const {
-    const double u = (block % columns_ * side_ + x + 0.5) / image_.width;
-    const double v = 1.0 - (block / columns_ * side_ + y + 0.5) / image_.height;
+    const int column = block % columns_, row = block / columns_;
+    const double u = (column * side_ + x + 0.5) / image_.width;
+    const double v = 1.0 - (row * side_ + y + 0.5) / image_.height;
     return {static_cast<float>(u), static_cast<float>(v)};
   }
   core::Image Take() { return std::move(image_); }

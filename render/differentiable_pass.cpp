@@ -118,7 +118,8 @@ Eigen::Vector2d DifferentiablePass::SamplePosition(int x, int y, int sample) con
   const int n = options_.samples_per_side;
   const std::uint64_t index = (static_cast<std::uint64_t>(y) * camera_.width + x) * n * n + sample;
   const std::uint64_t bits = MixedColors(seed_ ^ MixedColors(index));
-  return {x + (sample % n + High(bits)) / n, y + (sample / n + Low(bits)) / n};
+  const int column = sample % n, row = sample / n;
+  return {x + (column + High(bits)) / n, y + (row + Low(bits)) / n};
 }
 
 void DifferentiablePass::TraceRow(int y, SeenPoint* seen) const {

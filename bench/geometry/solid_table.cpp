@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 struct Tally {
   int models = 0;
   int good = 0;
-  int sound = 0;
+  int valid = 0;
   int refused = 0;
   std::vector<double> seconds;
 };

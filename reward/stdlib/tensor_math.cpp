@@ -74,7 +74,7 @@ Tensor TensorMath::Make(DataType type, Shape shape, std::vector<NodeId> nodes, P
 
 Tensor TensorMath::Full(DataType type, Shape shape, NodeId node, Position position) {
   const std::int64_t count = LaneCount(shape);
-  if (count > options_.max_lanes) Make(type, std::move(shape), {}, position);  // throws
+  if (count > options_.max_lanes) Make(type, shape, {}, position);  // throws
   return Make(type, std::move(shape), std::vector<NodeId>(static_cast<std::size_t>(count), node),
               position);
 }

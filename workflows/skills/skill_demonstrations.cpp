@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/json.h"
+#include "skills/episode.h"
 #include "skills/start_pool.h"
 #include "skills/tool_command.h"
 
