@@ -112,13 +112,13 @@ TEST_F(SkillReplay, AFileThatDoesNotFitIsRefusedInOneLine) {
       {Path("pick.csv") + " --run " + Move(), "task 'pick_up_block'"},
       {Path("pick.csv") + " --run " + Path("nowhere"), "does not exist"},
       {write("arm.csv", [](Trajectory* t) { t->joints[2] = "elbow"; }), "panda_joint3"},
-      {write("robot.csv", [](Trajectory* t) { t->notes["robot"] = "generic6"; }), "generic6"},
-      {write("asset.csv", [](Trajectory* t) { t->notes["assets"] = "[\"00\"]"; }), "changed"},
-      {write("start.csv", [](Trajectory* t) { t->notes["start"] = "{}"; }), "start"},
-      {write("none.csv", [](Trajectory* t) { t->notes.clear(); }), "lacks the metadata entry"},
+      {write("robot.csv", [](Trajectory* t) { t->metadata["robot"] = "generic6"; }), "generic6"},
+      {write("asset.csv", [](Trajectory* t) { t->metadata["assets"] = "[\"00\"]"; }), "changed"},
+      {write("start.csv", [](Trajectory* t) { t->metadata["start"] = "{}"; }), "start"},
+      {write("none.csv", [](Trajectory* t) { t->metadata.clear(); }), "lacks the metadata entry"},
       {write("times.csv",
              [](Trajectory* t) {
-               t->notes["subtasks"] = R"([{"name":"pick_up_block","begin":0,"end":1e300}])";
+               t->metadata["subtasks"] = R"([{"name":"pick_up_block","begin":0,"end":1e300}])";
              }),
        "is truncated"},
   };
