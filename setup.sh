@@ -2,9 +2,9 @@
 # Installs the build and runtime dependencies of Simwright from Debian 12's packages, if they are
 # missing. --tests adds the dependencies of tests and benchmarks (with python3-torch, against which
 # reward programs are compared), --catalogue the furniture of the catalogue tests (120 MB), --fuzz
-# the compiler of the fuzz targets, the formatter and the linter, and what the fast tests link. --peers instead
-# creates .venv-peers with Drake, MuJoCo, PyBullet and yourdfpy from PyPI (700 MB), in which the
-# tests of label `peers` load Simwright's files.
+# the compiler of the fuzz targets, the formatter, the linter, and what the fast tests link. --peers
+# instead creates .venv-peers with Drake, MuJoCo, PyBullet and yourdfpy from PyPI (700 MB), in which
+# the tests of label `peers` load Simwright's files.
 set -euo pipefail
 
 packages=(

@@ -223,7 +223,7 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
                                             LoadedTree* loaded) {
   if (placement.self_contacts && !body.kinematics->excluded_pairs().empty()) {
     exclusion.Exclude(static_cast<int>(bodies.size()), body.kinematics->excluded_pairs());
-    broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&exclusion);
+    broadphase.getOverlappingPairCache()->setOverlapFilterCallback(exclusion.callback());
   }
   for (size_t i = 0; i < body.links.size(); ++i) {
     const RigidBody& link = body.links[i];

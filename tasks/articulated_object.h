@@ -13,7 +13,7 @@
 
 namespace simwright::tasks {
 
-// What tasks know of a link beyond the kinematic model.
+// A link's label and geometry; its place in the tree is in the kinematic model.
 struct ObjectLink {
   std::string label;  // door, handle, drawer ...; may be empty
   int joint = -1;     // index into ArticulatedObject::joints; -1 where it is fixed to its parent

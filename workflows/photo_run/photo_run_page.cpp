@@ -133,7 +133,7 @@ std::string AssetSources(const core::JsonField& asset) {
   return joined;
 }
 
-std::string CheckRows(const std::vector<core::JsonField>& rows) {
+std::string CheckTableRows(const std::vector<core::JsonField>& rows) {
   std::string html;
   for (const core::JsonField& row : rows) {
     html += "<tr><td>" + Escaped(row["property"]) + "<br/><span class=\"soft\">" +
@@ -165,7 +165,7 @@ void AddAssetPart(const PhotoRunFolder& folder, const core::JsonField& report, V
        {"sources", AssetSources(asset)},
        {"check_class", passed == std::ssize(rows) ? "good" : "bad"},
        {"check_count", std::to_string(passed) + " of " + std::to_string(rows.size())},
-       {"check_rows", Markup{CheckRows(rows)}}});
+       {"check_rows", Markup{CheckTableRows(rows)}}});
 }
 
 // Returns the drawing of the task with the objects of its scene.
