@@ -33,6 +33,8 @@ void ExclusionFilter::Exclude(int body, const std::set<std::pair<int, int>>& pai
   if (!pairs.empty()) callback_->pairs[body] = pairs;
 }
 
-btOverlapFilterCallback* ExclusionFilter::callback() { return callback_.get(); }
+btOverlapFilterCallback* ExclusionFilter::callback() {
+  return callback_.get();
+}
 
 }  // namespace simwright::sim
