@@ -302,8 +302,8 @@ Step PutIntoStep(const WorldModel& model, const WorldState& state, const Operato
   step.description = "Put the " + SpokenName(object) + " into the " + SpokenName(holder) + ".";
   Program program("Bring the " + SpokenName(object) + " inside and let go of it.");
   program.Line("thing = env.get_position(" + Quoted(object.name) + ")")
-      .Line("low, high = env.get_bounding_box_link(" + Quoted(holder.name) + ", " +
-            Quoted(link) + ")")
+      .Line("low, high = env.get_bounding_box_link(" + Quoted(holder.name) + ", " + Quoted(link) +
+            ")")
       .Line("size = high - low")
       .Line("inside = env.in_bbox(thing, low + size * " + Triple(low) + ",")
       .Line("                     low + size * " + Triple(high) + ")")
