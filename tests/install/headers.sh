@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# usage: headers.sh BUILD. Installs BUILD into a fresh prefix and compiles each installed header
-# alone: a public header includes what it needs, which is the standard library, Eigen and other
-# public headers. Then it builds a program per component that includes all headers of the component.
+# usage: headers.sh BUILD [--alone]. Installs BUILD into a fresh prefix and builds a program per
+# component that includes all public headers of the component, once in alphabetical and once in
+# reverse order: a public header includes what it needs, which is the standard library, Eigen and
+# other public headers. --alone also compiles each header alone, which takes four minutes on two
+# cores.
 set -euo pipefail
 build=$1
 work=$(mktemp -d)
@@ -16,13 +18,16 @@ compile_alone() {
     -x c++ - || { echo "error: $1 does not compile alone" >&2; return 1; }
 }
 export -f compile_alone
-xargs -a "$work/headers" -P "$(nproc)" -I '{}' bash -c 'compile_alone {}'
+if [ "${2:-}" = --alone ]; then
+  xargs -a "$work/headers" -P "$(nproc)" -I '{}' bash -c 'compile_alone {}'
+fi
 
 mkdir "$work/programs"
 cd "$work/programs"
 components=$(cut -d/ -f2 "$work/headers" | sort -u)
 for component in $components; do
   grep "^simwright/$component/" "$work/headers" | sed 's/.*/#include <&>/' >"$component.cpp"
+  tac "$component.cpp" >"${component}_reversed.cpp"
   echo "int main() {}" >>"$component.cpp"
 done
 cat >CMakeLists.txt <<'EOF'
@@ -30,7 +35,7 @@ cmake_minimum_required(VERSION 3.25)
 project(simwright_components LANGUAGES C CXX)
 foreach(component ${COMPONENTS})
   find_package(simwright REQUIRED COMPONENTS ${component})
-  add_executable(uses_${component} ${component}.cpp)
+  add_executable(uses_${component} ${component}.cpp ${component}_reversed.cpp)
   target_link_libraries(uses_${component} PRIVATE simwright::${component})
 endforeach()
 EOF
