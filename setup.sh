@@ -2,9 +2,10 @@
 # Installs the build and runtime dependencies of Simwright from Debian 12's packages, if they are
 # missing. --tests adds the dependencies of tests and benchmarks (with python3-torch, against which
 # reward programs are compared), --catalogue the furniture of the catalogue tests (120 MB), --fuzz
-# the compiler of the fuzz targets, the formatter, the linter, and what the fast tests link. --peers
-# instead creates .venv-peers with Drake, MuJoCo, PyBullet and yourdfpy from PyPI (700 MB), in which
-# the tests of label `peers` load Simwright's files.
+# the compiler of the fuzz targets, the formatter, the linter, and what the fast tests link, --bench
+# the libraries that only benchmarks compare with. --peers instead creates .venv-peers with Drake,
+# MuJoCo, PyBullet and yourdfpy from PyPI (700 MB), in which the tests of label `peers` load
+# Simwright's files.
 set -euo pipefail
 
 packages=(
@@ -24,9 +25,12 @@ for wanted in "$@"; do
         python3-torch python3-numpy python3-h5py python3-yaml)
       ;;
     --catalogue) packages+=(sweethome3d-furniture python3-skimage) ;;
-    --fuzz) packages+=("${test_libraries[@]}" clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev) ;;
+    --fuzz)
+      packages+=("${test_libraries[@]}" clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev)
+      ;;
+    --bench) packages+=(libqhull-dev libfcl-dev libccd-dev libmeshoptimizer-dev) ;;
     --peers) peers=yes ;;
-    *) echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz or --peers)" >&2; exit 2 ;;
+    *) echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz, --bench or --peers)" >&2; exit 2 ;;
   esac
 done
 
