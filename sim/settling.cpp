@@ -209,8 +209,8 @@ bool SettlingOptions::IsValid(std::string* error) const {
   }
   if (!(gravity_tilt_time >= 0.0)) return fails("gravity_tilt_time must be at least 0 s");
   if (!(stable > 0.0)) return fails("stable must be above 0 m");
-  if (!(rest_tolerance >= 0.0)) return fails("resting must be at least 0 m");
-  if (!(early_stop_factor >= 0.0)) return fails("pace must be at least 0");
+  if (!(rest_tolerance >= 0.0)) return fails("rest_tolerance must be at least 0 m");
+  if (!(early_stop_factor >= 0.0)) return fails("early_stop_factor must be at least 0");
   if (!(fall_distance > 0.0)) return fails("fall_distance must be above 0 m");
   return true;
 }

@@ -40,7 +40,7 @@ struct SettlingOptions {
   // before the end of `watch`.
   double early_stop_factor = 4.0;
   // m below its initial height: a lower object has fallen off its support. It is removed, so that
-  // it topples nothing and its rolling delays nobody; not if `resting` is 0.
+  // it topples nothing and its rolling delays nobody; not if `rest_tolerance` is 0.
   double fall_distance = 0.05;
 
   bool IsValid(std::string* error) const;

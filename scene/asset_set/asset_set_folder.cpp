@@ -15,7 +15,7 @@ namespace {
 
 // Returns the category of a folder name: "teapot" of "teapot_3", "apple_2" of "apple_2_3". The
 // number at the end is the seed.
-std::string SlotOf(const std::string& name) {
+std::string CategoryOfName(const std::string& name) {
   size_t digits = name.size();
   while (digits > 0 && std::isdigit(static_cast<unsigned char>(name[digits - 1]))) --digits;
   const bool seeded = digits > 1 && digits < name.size() && name[digits - 1] == '_';
@@ -44,7 +44,8 @@ std::vector<fs::path> AssetFolders(const fs::path& folder) {
 AssetSet ReadAssetSet(const fs::path& folder) {
   CategoryFolders folders;
   for (const fs::path& path : AssetFolders(folder)) {
-    folders.emplace(SlotOf(path.filename().string()), path);  // keeps the first of a category
+    folders.emplace(CategoryOfName(path.filename().string()),
+                    path);  // keeps the first of a category
   }
   if (folders.empty()) throw core::Error("there are no rigid assets", folder.string());
   return ReadAssetSet(folders);
@@ -60,8 +61,8 @@ CategoryFolders FoldersForCategories(const fs::path& folder,
       by_name.emplace(name, path);
       continue;
     }
-    const std::string slot = SlotOf(name);
-    if (wanted.count(slot) > 0) by_seed.emplace(slot, path);
+    const std::string named = CategoryOfName(name);
+    if (wanted.count(named) > 0) by_seed.emplace(named, path);
     const std::string category = assets::ReadAsset(path).parameters.category;
     if (wanted.count(category) > 0) by_category.emplace(category, path);
   }
@@ -72,13 +73,13 @@ CategoryFolders FoldersForCategories(const fs::path& folder,
 
 AssetSet ReadAssetSet(const CategoryFolders& folders) {
   AssetSet asset_set;
-  for (const auto& [slot, path] : folders) {
+  for (const auto& [category, path] : folders) {
     const assets::Asset asset = assets::ReadAsset(path);
     if (asset.parts.empty()) {
       throw core::Error("the asset has no collision parts", path.string(),
                         "make it with `simwright import` or `lift`");
     }
-    asset_set.Add(slot, sim::BodyFromAsset(asset), asset.visual);
+    asset_set.Add(category, sim::BodyFromAsset(asset), asset.visual);
   }
   return asset_set;
 }

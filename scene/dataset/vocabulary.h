@@ -10,7 +10,7 @@ namespace simwright::scene {
 // The width of a pose in a token: translation (3) and row-major rotation matrix (9).
 inline constexpr int kPoseWidth = 12;
 
-// The classes of learned scenes: class c is the category slots[c]; the last class is the empty
+// The classes of learned scenes: class c is categories[c]; the last class is the empty
 // class of the padding.
 struct Vocabulary {
   std::string type;                     // scene type: "dimsum"
