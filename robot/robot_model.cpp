@@ -231,6 +231,12 @@ std::vector<JointLimits> RobotModel::ArmLimits() const {
 
 std::vector<Eigen::Isometry3d> RobotModel::LinkPoses(
     const Eigen::Ref<const Eigen::VectorXd>& arm_positions, double leader) const {
+  if (arm_positions.size() != arm.size()) {
+    throw core::Error("got " + std::to_string(arm_positions.size()) +
+                          " positions of the arm, which has " + std::to_string(arm.size()) +
+                          " joints",
+                      name);
+  }
   std::vector<double> positions(kinematics->joints().size(), 0.0);
   for (std::size_t j = 0; j < arm_joints.size(); ++j) {
     positions[static_cast<std::size_t>(arm_joints[j])] =

@@ -44,7 +44,7 @@ struct RobotModel {
   // Returns the limits of the arm's joints, in the arm's order (J).
   std::vector<JointLimits> ArmLimits() const;
   // Returns the poses of all links in the root's frame (urdf.links), for positions of the arm's
-  // joints (J, rad or m) and of the gripper's leader.
+  // joints (J, rad or m) and of the gripper's leader. Throws core::Error if there are not J.
   std::vector<Eigen::Isometry3d> LinkPoses(const Eigen::Ref<const Eigen::VectorXd>& arm_positions,
                                            double leader) const;
 };
