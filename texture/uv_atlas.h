@@ -13,11 +13,11 @@ struct AtlasOptions {
   int padding = 2;  // pixels kept free around each chart, filled by dilation when baking
 };
 
-// Computes texture coordinates for any mesh without overlaps: six-way cube projection by normal (as
-// in SF3D); connected regions become charts, triangles that would overlap others of their chart
-// move to charts of their own; charts are packed on shelves at one texel density. Returns corner
-// UVs (3M x 2) in [0, 1], origin at the lower left. Throws core::Error for an invalid mesh, or if
-// even the smallest scale does not fit.
+// Computes texture coordinates for any mesh without overlaps, by xatlas: charts grow over similar
+// normals, are flattened with little change of angles, and are packed at one texel density. No
+// chart is mirrored. A triangle without area gets the coordinates of one point. Returns corner UVs
+// (3M x 2) in [0, 1], origin at the lower left. Throws core::Error for an invalid mesh, or if even
+// the smallest scale does not fit.
 std::vector<Eigen::Vector2f> UnwrapToAtlas(const core::TriangleMesh& mesh,
                                            const AtlasOptions& options = {});
 

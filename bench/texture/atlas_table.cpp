@@ -1,5 +1,4 @@
-// Compares texture atlases on a texture of 1024 pixels with margins of 2: this project's cube
-// projection (texture/uv_atlas.h) and xatlas, in several settings.
+// Measures the texture atlas (texture/uv_atlas.h) on a texture of 1024 pixels with margins of 2.
 //   bench_atlas_table [--size N] [MESH...]
 // MESH: more mesh files. Columns: the faces; the share of the texels that are covered; the distance
 // of neighbouring texels on the surface (mm, root mean square: what packing and stretch cost
@@ -18,7 +17,6 @@
 
 #include "assets/mesh_import.h"
 #include "bench/geometry/decomposition_shapes.h"
-#include "bench/texture/xatlas_unwrap.h"
 #include "core/error.h"
 #include "geometry/weld.h"
 #include "library/rigid/rigid_kinds.h"
@@ -36,14 +34,7 @@ struct Method {
 };
 
 std::vector<Method> Methods() {
-  const auto with = [](const XatlasTuning& tuning) {
-    return [tuning](const core::TriangleMesh& mesh, const texture::AtlasOptions& options) {
-      return XatlasUnwrap(mesh, options, tuning);
-    };
-  };
-  return {{"cube", texture::UnwrapToAtlas},  {"x guess", with({})},
-          {"x search", with({false, true})}, {"x blocks", with({false, true, true})},
-          {"x turned", with({true, true})},  {"x grown", with({false, true, false, 4})}};
+  return {{"atlas", texture::UnwrapToAtlas}};
 }
 
 // Returns a lumpy closed surface of some 20,000 faces, as a reconstruction from a photo gives.

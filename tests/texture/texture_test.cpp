@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "tests/texture/atlas_quality.h"
 #include "texture/bake.h"
 #include "texture/photo_projection.h"
 #include "texture/uv_atlas.h"
@@ -68,6 +69,81 @@ TEST(UvAtlas, NoTwoTrianglesShareATexel) {
   }
   EXPECT_EQ(shared, 0);
   EXPECT_GT(covered, 512 * 512 / 4);
+}
+
+// Returns `count` tetrahedra in a row, of 1 to 2 cm.
+core::TriangleMesh Tetrahedra(int count) {
+  core::TriangleMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const double x = 0.03 * i, size = 0.01 + 0.01 * (i % 7) / 7.0;
+    const int first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.emplace_back(x, 0, 0);
+    for (int k = 0; k < 3; ++k) {
+      mesh.vertices.push_back(Eigen::Vector3d(x, 0, 0) + size * Eigen::Vector3d::Unit(k));
+    }
+    for (const Eigen::Vector3i& t : {Eigen::Vector3i(0, 2, 1), Eigen::Vector3i(0, 1, 3),
+                                     Eigen::Vector3i(0, 3, 2), Eigen::Vector3i(1, 2, 3)}) {
+      mesh.triangles.push_back(t + Eigen::Vector3i::Constant(first));
+    }
+  }
+  return mesh;
+}
+
+TEST(UvAtlas, KeepsMarginsAndOrientation) {
+  for (const core::TriangleMesh& mesh : {Ball(16), Tetrahedra(40)}) {
+    for (const int padding : {1, 2, 4}) {
+      AtlasOptions options;
+      options.size = 512;
+      options.padding = padding;
+      const auto uvs = UnwrapToAtlas(mesh, options);
+      const auto quality = atlas_quality::MeasureAtlas(mesh, uvs, options.size, padding);
+      EXPECT_EQ(quality.shared_texels, 0);
+      EXPECT_GE(quality.nearest_charts, 2 * padding);
+      EXPECT_EQ(quality.outside, 0);
+      EXPECT_EQ(quality.reversed, 0);
+      EXPECT_GT(quality.covered, 0.25);
+      EXPECT_LT(quality.stretch, 1.25);
+      // The texture's edge is a margin, too: lookups wrap around it.
+      for (const Eigen::Vector2f& uv : uvs) {
+        EXPECT_GE(uv.minCoeff() * 512, padding);
+        EXPECT_LE(uv.maxCoeff() * 512, 512 - padding);
+      }
+    }
+  }
+}
+
+TEST(UvAtlas, GivesTheSameBytesAgainAtAnyScale) {
+  core::TriangleMesh ball = Ball(12);
+  const auto uvs = UnwrapToAtlas(ball);
+  EXPECT_TRUE(uvs == UnwrapToAtlas(ball));
+  for (Eigen::Vector3d& v : ball.vertices) v *= 0x1p-20;  // a power of two: no rounding
+  EXPECT_TRUE(uvs == UnwrapToAtlas(ball));
+}
+
+// A repeated vertex, collinear corners and coinciding vertices.
+TEST(UvAtlas, PlacesTrianglesWithoutArea) {
+  core::TriangleMesh mesh = Ball(8);
+  const int last = static_cast<int>(mesh.vertices.size());
+  for (const double x : {3.0, 4.0, 5.0}) mesh.vertices.emplace_back(x, 0, 0);
+  mesh.triangles.emplace_back(0, 0, 1);
+  mesh.triangles.emplace_back(last, last + 1, last + 2);
+  mesh.triangles.emplace_back(1, 1, 1);
+  const auto uvs = UnwrapToAtlas(mesh);
+  ASSERT_EQ(uvs.size(), 3 * mesh.triangles.size());
+  EXPECT_EQ(atlas_quality::MeasureAtlas(mesh, uvs, 1024, 2).outside, 0);
+  core::TriangleMesh flat;
+  flat.vertices.assign(3, Eigen::Vector3d(1, 2, 3));
+  flat.triangles.emplace_back(0, 1, 2);
+  for (const Eigen::Vector2f& uv : UnwrapToAtlas(flat)) {
+    EXPECT_TRUE(uv.allFinite() && uv.minCoeff() >= 0.0f && uv.maxCoeff() <= 1.0f);
+  }
+}
+
+TEST(UvAtlas, RefusesMorePiecesThanTexels) {
+  AtlasOptions options;
+  options.size = 16;
+  EXPECT_THROW(UnwrapToAtlas(Tetrahedra(300), options), core::Error);
+  EXPECT_THROW(UnwrapToAtlas({}), core::Error);
 }
 
 TEST(Bake, EachPointOfTheSurfaceFindsItsOwnColour) {
