@@ -71,6 +71,7 @@ Asset AssetFrom(const core::JsonField& field, const std::string& where) {
   a.scale = field["link_from_input"]["scale"].Number();
   a.link_from_input = PoseFrom(field["link_from_input"]);
   a.rolls = field["rolls"].Flag();
+  if (field.Has("findings")) a.findings = core::FindingsFrom(field["findings"]);
   return a;
 }
 

@@ -47,6 +47,20 @@ TEST_F(AssetFolder, ReadsBackWhatItWrote) {
   EXPECT_EQ(read.visual.materials.back().name, "painted_wood");
 }
 
+TEST_F(AssetFolder, ReadsTheFindingsOfItsCreation) {
+  Asset asset = SampleAsset();
+  asset.findings = {{"size-drawn", core::Severity::kWarning, "", "The height is drawn at random",
+                     0.25, "state it"}};
+  WriteAsset(asset, folder_);
+  const core::Findings read = ReadAsset(folder_).findings;
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].code, "size-drawn");
+  EXPECT_EQ(read[0].severity, core::Severity::kWarning);
+  EXPECT_EQ(read[0].sentence, asset.findings[0].sentence);
+  EXPECT_EQ(read[0].figure, 0.25);
+  EXPECT_EQ(read[0].remedy, "state it");
+}
+
 TEST_F(AssetFolder, UrdfdomFindsTheSameInertial) {
   const UrdfModel model = ReadUrdf(folder_ / "sample_box.urdf");
   EXPECT_TRUE(model.findings.empty());
