@@ -11,7 +11,7 @@ set -euo pipefail
 packages=(
   build-essential g++ cmake ninja-build ccache pkg-config git
   libeigen3-dev libassimp-dev libdraco-dev libcgal-dev libembree-dev libopencv-dev libopencv-contrib-dev
-  libbullet-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
+  libceres-dev libbullet-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
   libcli11-dev libcurl4-openssl-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev
   libconsole-bridge-dev libhdf5-dev libspdlog-dev
   wordnet-base libtorch-dev libopenblas0-pthread

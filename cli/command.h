@@ -39,6 +39,7 @@ int ReportStopped(const std::filesystem::path& folder);
 void AddCommon(CLI::App* command, CommonOptions* common);
 void AddForce(CLI::App* command, CommonOptions* common);
 void AddLift(CLI::App* app, CommonOptions* common, Run* run);
+void AddMat(CLI::App* app, CommonOptions* common, Run* run);
 void AddImport(CLI::App* app, CommonOptions* common, Run* run);
 void AddPhysics(CLI::App* app, CommonOptions* common, Run* run);
 void AddCheck(CLI::App* app, CommonOptions* common, Run* run);

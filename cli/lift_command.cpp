@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "workflows/lift/lift.h"
+#include "workflows/lift/mat_lift.h"
 
 namespace simwright::cli {
 namespace {
@@ -16,7 +17,8 @@ struct LiftFlags {
   std::vector<std::filesystem::path> photos;
   std::filesystem::path mask;
   std::filesystem::path cameras;
-  bool fast = false, outline = false;
+  bool fast = false, outline = false, each = false;
+  double ruler = 0.0;  // mm
   workflows::LiftRequest request;
 };
 
@@ -50,6 +52,18 @@ void LiftPrinter::Print(const workflows::LiftOutcome& outcome) {
               (outcome.folder / "preview.png").c_str());
 }
 
+workflows::MatLiftRequest MatRequest(const LiftFlags& flags) {
+  const workflows::LiftRequest& one = flags.request;
+  workflows::MatLiftRequest request{flags.photos, one.category, 0.1,        one.size,
+                                    one.stated,   one.seed,     one.output, one.force};
+  if (flags.ruler > 0.0) request.ruler = 0.001 * flags.ruler;
+  if (one.height > 0.0) {
+    throw core::Error("--height is not used with a mat, which gives the size", "",
+                      "leave it out, or state all sides with --size");
+  }
+  return request;
+}
+
 int Lift(LiftFlags flags, const CommonOptions& common) {
   asset_build::Validate(flags.request.size);
   Validate(flags.request.stated);
@@ -74,6 +88,11 @@ int Lift(LiftFlags flags, const CommonOptions& common) {
   if (flags.photos.size() > 1 && flags.request.mask) {
     throw core::Error("--mask needs a single photo");
   }
+  if (!flags.each && workflows::ShowMat(flags.photos)) {
+    printer.Print(workflows::LiftToFolder(MatRequest(flags), &progress));
+    printer.Finish();
+    return 0;
+  }
   const std::filesystem::path output = flags.request.output;
   for (const std::filesystem::path& photo : flags.photos) {
     flags.request.photo = photo;
@@ -94,11 +113,14 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
   command->footer(
       "Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
       "  simwright lift coffee.png --mask coffee_mask.png --category 'coffee cup' -o cup\n"
-      "  simwright lift front.jpg left.jpg back.jpg --cameras cams.json --category mug -o mug");
+      "  simwright lift front.jpg left.jpg back.jpg --cameras cams.json --category mug -o mug\n"
+      "  simwright lift photos/*.jpg --category mug -o mug    (photos on a mat, see simwright "
+      "mat)");
   command
       ->add_option(
           "photos", flags->photos,
-          "PNG, JPEG, WebP, TIFF, GIF ... of one object each; with --cameras all of one object")
+          "PNG, JPEG, WebP, TIFF, GIF ... of one object each; with --cameras, or on a mat that "
+          "`simwright mat` wrote, all of one object")
       ->required();
   command->add_option("--category", flags->request.category, "The object's category, e.g. mug")
       ->required();
@@ -115,6 +137,12 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option("--prior", flags->request.prior,
                    "A TorchScript view prior, e.g. an exported Zero-1-to-3")
       ->default_str("the shipped one");
+  command
+      ->add_option("--ruler", flags->ruler,
+                   "The length of the printed mat's ruler as measured, mm: corrects a wrong print")
+      ->check(CLI::Range(50.0, 200.0))
+      ->default_str("100");
+  command->add_flag("--each", flags->each, "Each photo shows another object, even on a mat");
   command->add_flag("--fast", flags->fast, "Without radiance field: under a minute");
   command->add_flag("--outline", flags->outline, "Only inflate the silhouette: a few seconds");
   command

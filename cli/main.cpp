@@ -40,6 +40,7 @@ int Main(int argc, char** argv) {
   cli::CommonOptions common;
   cli::Run run;
   cli::AddLift(&app, &common, &run);
+  cli::AddMat(&app, &common, &run);
   cli::AddImport(&app, &common, &run);
   cli::AddPhysics(&app, &common, &run);
   cli::AddCheck(&app, &common, &run);

@@ -80,7 +80,16 @@ Eigen::AlignedBox3d InsideBounds(const geometry::ScalarGrid& field) {
   return box;
 }
 
-// Returns the mesh without components of less than a hundredth of the largest one's volume.
+[[noreturn]] void ThrowNothingLeft(const std::vector<ObservedView>& views) {
+  std::string which;
+  for (const int i : CheckViewConsistency(views).contradicting) which += " " + std::to_string(i);
+  throw core::Error("no point lies inside all the masks", "visual hull",
+                    which.empty() ? "the cameras contradict each other or the grid is too coarse"
+                                  : "these views contradict the others:" + which);
+}
+
+}  // namespace
+
 core::TriangleMesh LargeComponents(const core::TriangleMesh& mesh) {
   int count = 0;
   const std::vector<int> part = geometry::EdgeComponents(mesh, &count);
@@ -98,16 +107,6 @@ core::TriangleMesh LargeComponents(const core::TriangleMesh& mesh) {
   }
   return geometry::WithoutUnusedVertices(kept);
 }
-
-[[noreturn]] void ThrowNothingLeft(const std::vector<ObservedView>& views) {
-  std::string which;
-  for (const int i : CheckViewConsistency(views).contradicting) which += " " + std::to_string(i);
-  throw core::Error("no point lies inside all the masks", "visual hull",
-                    which.empty() ? "the cameras contradict each other or the grid is too coarse"
-                                  : "these views contradict the others:" + which);
-}
-
-}  // namespace
 
 bool VisualHullOptions::IsValid(std::string* error) const {
   const auto fail = [&](const char* why) {

@@ -42,6 +42,10 @@ core::TriangleMesh VisualHull(const std::vector<ObservedView>& views,
                               const VisualHullOptions& options = {},
                               core::Progress* progress = nullptr);
 
+// Returns the mesh without components of less than a hundredth of the largest one's volume. The
+// mesh is closed.
+core::TriangleMesh LargeComponents(const core::TriangleMesh& mesh);
+
 // Returns the signed distance to the mask's outline, pixels, negative inside. (H x W x 1), at pixel
 // centres.
 core::FloatImage MaskDistance(const core::FloatImage& opacity);

@@ -12,6 +12,7 @@
 #include "physics_params/size_plausibility.h"
 #include "render/forward.h"
 #include "workflows/lift/camera_file.h"
+#include "workflows/lift/lift_finishing.h"
 #include "workflows/priors/prior_weights.h"
 
 namespace simwright::workflows {
@@ -77,19 +78,6 @@ asset_lift::CategoryPrior PriorOf(const physics_params::Category& category) {
 
 namespace {
 
-// The settings of the steps that follow both kinds of reconstruction: true size, asset, pictures,
-// folder.
-struct Finishing {
-  std::filesystem::path output;
-  std::string source;
-  physics_params::Resolution category;
-  double height = 0.0;           // m; 0: see `metric`
-  asset_build::StatedSize size;  // overrides `height`
-  physics_params::StatedPhysics stated;
-  bool metric = false;  // the mesh is already in metres
-  std::uint64_t seed = 1;
-};
-
 // Reports that the size was sampled, because a single photo does not determine it.
 core::Finding SizeDrawn(const physics_params::Category& category, const Eigen::Vector3d& sides,
                         const std::string& photo) {
@@ -102,6 +90,8 @@ core::Finding SizeDrawn(const physics_params::Category& category, const Eigen::V
           sides.maxCoeff(),
           "give the true size with --height or --size"};
 }
+
+}  // namespace
 
 LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
                        asset_lift::LiftedMesh lifted, core::StagedFolder* staged,
@@ -144,6 +134,8 @@ LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
   outcome.seconds["lift"] = lift_seconds;
   return outcome;
 }
+
+namespace {
 
 double LiftSeconds(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -17,6 +17,7 @@ std::string_view task_section_html();
 std::string_view task_drawing_svg();
 std::string_view photo_run_html();
 std::string_view photo_run_css();
+std::string_view capture_page_html();
 std::string_view photo_run_trajectory_html();
 
 }  // namespace data

@@ -1,0 +1,208 @@
+#include "tests/asset_lift/mat_photos.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "render/forward.h"
+
+namespace simwright::asset_lift {
+namespace {
+
+constexpr double kMargin = 1.12;  // of the pinhole image's sides over those of the distorted one
+
+// Adds a rectangle with a texture: `corners` counter-clockwise from the lower left.
+void AddQuad(const std::array<Eigen::Vector3d, 4>& corners, core::Image texture,
+             core::TexturedMesh* mesh) {
+  const int first = static_cast<int>(mesh->mesh.vertices.size());
+  for (const Eigen::Vector3d& corner : corners) mesh->mesh.vertices.push_back(corner);
+  const Eigen::Vector2f uvs[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (const Eigen::Vector3i& t : {Eigen::Vector3i(0, 1, 2), Eigen::Vector3i(0, 2, 3)}) {
+    mesh->mesh.triangles.push_back(t + Eigen::Vector3i::Constant(first));
+    for (int k = 0; k < 3; ++k) mesh->corner_uvs.push_back(uvs[t[k]]);
+    mesh->triangle_material.push_back(static_cast<int>(mesh->materials.size()));
+  }
+  core::Material material;
+  material.base_color = Eigen::Vector4f::Ones();
+  material.texture = static_cast<int>(mesh->textures.size());
+  mesh->materials.push_back(material);
+  mesh->textures.push_back(std::move(texture));
+}
+
+// Returns a blotchy texture around a colour.
+core::Image Blotches(int side, int cell, const Eigen::Vector3d& color, double contrast,
+                     core::Rng* rng) {
+  const int nodes = side / cell + 2;
+  std::vector<double> value(static_cast<std::size_t>(nodes) * nodes);
+  for (double& v : value) v = core::Uniform(*rng, -1.0, 1.0);
+  core::Image image(side, side, 3);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const int i = x / cell, j = y / cell;
+      const double u = static_cast<double>(x % cell) / cell;
+      const double v = static_cast<double>(y % cell) / cell;
+      const auto node = [&](int a, int b) {
+        return value[static_cast<std::size_t>(b) * nodes + a];
+      };
+      const double blend = (1 - v) * ((1 - u) * node(i, j) + u * node(i + 1, j)) +
+                           v * ((1 - u) * node(i, j + 1) + u * node(i + 1, j + 1));
+      for (int c = 0; c < 3; ++c) {
+        image.At(x, y)[c] =
+            static_cast<std::uint8_t>(std::clamp(color[c] * (1.0 + contrast * blend), 0.0, 255.0));
+      }
+    }
+  }
+  return image;
+}
+
+core::TexturedMesh Surroundings(const MatPhotoOptions& options) {
+  core::Rng rng(options.seed);
+  core::TexturedMesh room;
+  constexpr double kTable = 0.9, kWall = 2.0;
+  AddQuad({Eigen::Vector3d(-kTable, -kTable, -0.001),
+           {kTable, -kTable, -0.001},
+           {kTable, kTable, -0.001},
+           {-kTable, kTable, -0.001}},
+          Blotches(512, 16, {140, 105, 75}, 0.35, &rng), &room);
+  for (int side = 0; side < 4; ++side) {
+    const Eigen::AngleAxisd turn(side * std::numbers::pi / 2, Eigen::Vector3d::UnitZ());
+    const Eigen::Vector3d color(core::Uniform(rng, 80, 200), core::Uniform(rng, 80, 200),
+                                core::Uniform(rng, 80, 200));
+    AddQuad(
+        {turn * Eigen::Vector3d(-kWall, kWall, -1.5), turn * Eigen::Vector3d(kWall, kWall, -1.5),
+         turn * Eigen::Vector3d(kWall, kWall, 1.5), turn * Eigen::Vector3d(-kWall, kWall, 1.5)},
+        Blotches(512, 40, color, 0.3, &rng), &room);
+  }
+  if (!options.mat) return room;
+  const CaptureMat& mat = CaptureMatOf(options.paper);
+  const core::Image grey = MatPicture(mat, 8000.0);
+  core::Image page(grey.width, grey.height, 3);
+  const Eigen::AlignedBox2d printed = mat.Printed();
+  for (int y = 0; y < grey.height; ++y) {
+    for (int x = 0; x < grey.width; ++x) {
+      const Eigen::Vector2d at((x + 0.5) / 8000.0 - 0.5 * mat.width,
+                               0.5 * mat.height - (y + 0.5) / 8000.0);
+      const double light = grey.At(x, y)[0] / 255.0;
+      for (int c = 0; c < 3; ++c) {
+        // Paper is not white, and ink on it paler than on a screen.
+        const double ink =
+            printed.contains(at) ? (1 - light) * kMatDark[c] + light * kMatLight[c] : 1.0;
+        page.At(x, y)[c] = static_cast<std::uint8_t>(25 + 205 * ink);
+      }
+    }
+  }
+  const double w = 0.5 * mat.width, h = 0.5 * mat.height;
+  AddQuad({Eigen::Vector3d(-w, -h, 0), {w, -h, 0}, {w, h, 0}, {-w, h, 0}}, std::move(page), &room);
+  return room;
+}
+
+// Returns the direction (x, y) = (X / Z, Y / Z) that the lens shows at a pixel, by fixed-point
+// iteration.
+Eigen::Vector2d DirectionAt(const Lens& lens, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d wanted((pixel.x() - lens.cx) / lens.fx, (pixel.y() - lens.cy) / lens.fy);
+  Eigen::Vector2d at = wanted;
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector2d shown = lens.Project({at.x(), at.y(), 1.0});
+    at +=
+        wanted - Eigen::Vector2d((shown.x() - lens.cx) / lens.fx, (shown.y() - lens.cy) / lens.fy);
+  }
+  return at;
+}
+
+// Samples the pinhole image where the lens shows it.
+core::Image Distort(const core::Image& straight, const core::Camera& camera, const Lens& lens) {
+  core::Image photo(lens.width, lens.height, 3);
+  core::ParallelFor(lens.height, [&](int y) {
+    for (int x = 0; x < lens.width; ++x) {
+      const Eigen::Vector2d at = DirectionAt(lens, {x + 0.5, y + 0.5});
+      const double u = std::clamp(camera.fx * at.x() + camera.cx - 0.5, 0.0, camera.width - 1.001);
+      const double v = std::clamp(camera.fy * at.y() + camera.cy - 0.5, 0.0, camera.height - 1.001);
+      const int i = static_cast<int>(u), j = static_cast<int>(v);
+      const double a = u - i, b = v - j;
+      for (int c = 0; c < 3; ++c) {
+        photo.At(x, y)[c] = static_cast<std::uint8_t>(
+            (1 - b) * ((1 - a) * straight.At(i, j)[c] + a * straight.At(i + 1, j)[c]) +
+            b * ((1 - a) * straight.At(i, j + 1)[c] + a * straight.At(i + 1, j + 1)[c]) + 0.5);
+      }
+    }
+  });
+  return photo;
+}
+
+}  // namespace
+
+Lens PhoneLens(int width, int height, double longer_fov) {
+  Lens lens;
+  lens.width = width;
+  lens.height = height;
+  const double longer = std::max(width, height);
+  lens.fx = lens.fy = 0.5 * longer / std::tan(0.5 * longer_fov);
+  lens.cx = 0.5 * width + 0.006 * longer;
+  lens.cy = 0.5 * height - 0.004 * longer;
+  lens.k1 = -0.08;
+  lens.k2 = 0.03;
+  lens.p1 = 0.0006;
+  lens.p2 = -0.0004;
+  return lens;
+}
+
+std::vector<Eigen::Isometry3d> OrbitPoses(int count, const std::vector<double>& elevations,
+                                          double radius, const Lens& lens, std::uint64_t seed) {
+  core::Rng rng(seed);
+  std::vector<Eigen::Isometry3d> poses;
+  const double shorter = std::min(lens.width, lens.height);
+  for (int i = 0; i < count; ++i) {
+    const double elevation = elevations[static_cast<std::size_t>(i) % elevations.size()] +
+                             core::Uniform(rng, -0.05, 0.05);
+    const double azimuth = 2.0 * std::numbers::pi * (i + core::Uniform(rng, -0.2, 0.2)) / count;
+    const double distance =
+        radius / std::sin(std::atan(0.5 * shorter / lens.fx)) * core::Uniform(rng, 0.95, 1.1);
+    const core::Camera camera = core::OrbitCamera(
+        {core::Uniform(rng, -0.01, 0.01), core::Uniform(rng, -0.01, 0.01), 0.3 * radius}, distance,
+        elevation, azimuth, 0.5, lens.width, lens.height);
+    poses.push_back(camera.world_from_camera);
+  }
+  return poses;
+}
+
+std::vector<MatPhoto> RenderMatPhotos(const core::TexturedMesh& object,
+                                      const std::vector<Eigen::Isometry3d>& poses,
+                                      const MatPhotoOptions& options) {
+  const core::TexturedMesh room = Surroundings(options);
+  render::Scene scene;
+  scene.Add(&room);
+  scene.Add(&object);
+  scene.Commit();
+  render::ForwardOptions forward;
+  forward.shaded = true;
+  forward.samples_per_side = options.samples_per_side;
+  forward.occlusion_rays = 1;
+  forward.occlusion_reach = 0.005f;  // of the room: 2 cm
+  const Lens& lens = options.lens;
+  core::Camera camera;
+  camera.width = static_cast<int>(kMargin * lens.width);
+  camera.height = static_cast<int>(kMargin * lens.height);
+  camera.fx = lens.fx;
+  camera.fy = lens.fy;
+  camera.cx = lens.cx + 0.5 * (camera.width - lens.width);
+  camera.cy = lens.cy + 0.5 * (camera.height - lens.height);
+  std::vector<MatPhoto> photos;
+  core::Rng rng(options.seed + 1);
+  for (const Eigen::Isometry3d& pose : poses) {
+    camera.world_from_camera = pose;
+    const render::ForwardBuffers buffers = render::RenderForward(scene, camera, forward);
+    MatPhoto photo{Distort(buffers.color, camera, lens), pose};
+    for (std::uint8_t& value : photo.photo.pixels) {
+      value = static_cast<std::uint8_t>(
+          std::clamp(std::lround(value + options.noise * core::Normal(rng)), 0l, 255l));
+    }
+    photo.photo =
+        core::DecodeImage(core::EncodeJpeg(photo.photo, options.jpeg_quality), "rendered photo");
+    photos.push_back(std::move(photo));
+  }
+  return photos;
+}
+
+}  // namespace simwright::asset_lift

@@ -1,0 +1,133 @@
+// `simwright mat` and `simwright lift` of photos on a mat, on rendered photos.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+
+#include "assets/asset_folder.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "program.h"
+#include "tests/asset_lift/mat_photos.h"
+
+namespace simwright {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr double kRad = std::numbers::pi / 180.0;
+const Eigen::Vector3d kSides(0.06, 0.045, 0.09);  // m
+
+core::TexturedMesh Carton() {
+  core::TexturedMesh box;
+  for (int i = 0; i < 8; ++i) {
+    box.mesh.vertices.emplace_back(kSides.x() * ((i & 1) - 0.5), kSides.y() * ((i >> 1 & 1) - 0.5),
+                                   kSides.z() * (i >> 2));
+  }
+  for (const Eigen::Vector3i& t : {Eigen::Vector3i(0, 2, 1),
+                                   {1, 2, 3},
+                                   {4, 5, 6},
+                                   {5, 7, 6},
+                                   {0, 1, 4},
+                                   {1, 5, 4},
+                                   {2, 6, 3},
+                                   {3, 6, 7},
+                                   {0, 4, 2},
+                                   {2, 4, 6},
+                                   {1, 3, 5},
+                                   {3, 7, 5}}) {
+    box.mesh.triangles.push_back(t);
+  }
+  core::Material paint;
+  paint.base_color = {0.85f, 0.6f, 0.2f, 1.0f};
+  box.materials.push_back(paint);
+  box.triangle_material.assign(12, 0);
+  return box;
+}
+
+class MatLift : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new core::TemporaryFolder;
+    asset_lift::MatPhotoOptions options;
+    options.lens = asset_lift::PhoneLens(1000, 750, 65 * kRad);
+    poses_ = asset_lift::OrbitPoses(12, {18 * kRad, 40 * kRad, 62 * kRad}, 0.13, options.lens, 5);
+    const auto photos = asset_lift::RenderMatPhotos(Carton(), poses_, options);
+    for (std::size_t i = 0; i < photos.size(); ++i) {
+      core::WriteFile(Photo(i), core::EncodeJpeg(photos[i].photo, 97));
+    }
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static fs::path Photo(std::size_t i) {
+    return folder_->path() / ("photo" + std::to_string(10 + i) + ".jpg");
+  }
+  static std::string Photos(std::size_t count) {
+    std::string all;
+    for (std::size_t i = 0; i < count; ++i) all += " " + Photo(i).string();
+    return all;
+  }
+
+  static core::TemporaryFolder* folder_;
+  static std::vector<Eigen::Isometry3d> poses_;
+};
+core::TemporaryFolder* MatLift::folder_ = nullptr;
+std::vector<Eigen::Isometry3d> MatLift::poses_;
+
+TEST_F(MatLift, GivesTheTrueSizeTheCamerasAndAnAssetThatPasses) {
+  const fs::path asset = folder_->path() / "carton";
+  const Outcome lift =
+      RunProgram("lift" + Photos(12) + " --category box --quiet -o " + asset.string());
+  ASSERT_EQ(lift.code, 0) << lift.text;
+  const Eigen::Vector3d size = core::Bounds(assets::ReadAsset(asset).visual.mesh).sizes();
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(size[k], kSides[k], 0.04 * kSides.maxCoeff()) << k;
+  const core::JsonDocument capture =
+      core::JsonDocument::Read(asset / "capture.json", 1 << 20, "lift again");
+  EXPECT_EQ(capture.root()["mat"].Text(), "A4");
+  EXPECT_LT(capture.root()["error_pixels"].Number(), 0.6);
+  std::size_t i = 0;
+  for (const core::JsonField& photo : capture.root()["photos"].Elements()) {
+    EXPECT_EQ(photo["photo"].Text(), Photo(i).filename());
+    int row = 0;
+    for (const core::JsonField& values : photo["world_from_camera"].Elements()) {
+      if (row < 3) {
+        EXPECT_NEAR(values.Elements()[3].Number(), poses_[i].translation()[row], 0.004);
+      }
+      ++row;
+    }
+    ++i;
+  }
+  EXPECT_EQ(i, 12u);
+  EXPECT_TRUE(fs::exists(asset / "capture.html"));
+  const Outcome check = RunProgram("check " + asset.string() + " --quiet");
+  EXPECT_EQ(check.code, 0) << check.text;
+}
+
+TEST_F(MatLift, RefusesTooFewPhotosAndAHeightThatTheMatContradicts) {
+  const fs::path asset = folder_->path() / "refused";
+  const Outcome few = RunProgram("lift" + Photos(3) + " --category box -o " + asset.string());
+  EXPECT_EQ(few.code, 1);
+  EXPECT_NE(few.text.find("at least 4"), std::string::npos) << few.text;
+  const Outcome height =
+      RunProgram("lift" + Photos(4) + " --height 0.1 --category box -o " + asset.string());
+  EXPECT_EQ(height.code, 1);
+  EXPECT_NE(height.text.find("--height"), std::string::npos) << height.text;
+  EXPECT_FALSE(fs::exists(asset));
+}
+
+TEST(MatCommand, WritesAPageOfTrueSizeAndKeepsExistingFiles) {
+  const core::TemporaryFolder folder;
+  const fs::path file = folder.path() / "mat.pdf";
+  const Outcome made = RunProgram("mat --size A3 -o " + file.string());
+  ASSERT_EQ(made.code, 0) << made.text;
+  const std::string pdf = core::ReadFile(file, 1 << 22);
+  EXPECT_EQ(pdf.substr(0, 8), "%PDF-1.4");
+  // A3 in points, 1/72 inch.
+  EXPECT_NE(pdf.find("/MediaBox [0 0 841.8898 1190.5512]"), std::string::npos);
+  EXPECT_EQ(RunProgram("mat -o " + file.string()).code, 1);
+  EXPECT_EQ(core::ReadFile(file, 1 << 22), pdf);
+}
+
+}  // namespace
+}  // namespace simwright

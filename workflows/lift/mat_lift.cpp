@@ -1,0 +1,70 @@
+#include "workflows/lift/mat_lift.h"
+
+#include <chrono>
+
+#include "asset_lift/capture/capture_lift.h"
+#include "asset_lift/capture/mat_detection.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "workflows/lift/capture_report.h"
+#include "workflows/lift/lift_finishing.h"
+
+namespace simwright::workflows {
+namespace {
+
+constexpr double kNominalRuler = 0.1;  // m
+constexpr std::uint64_t kMaxPhotoBytes = 1ull << 30;
+
+asset_lift::CaptureSource SourceOf(const std::vector<std::filesystem::path>& photos) {
+  asset_lift::CaptureSource source;
+  for (const std::filesystem::path& path : photos) {
+    source.photos.push_back({path.filename().string(),
+                             core::ExifFocalLength35mm(core::ReadFile(path, kMaxPhotoBytes))});
+  }
+  source.read = [&photos](int index) {
+    return core::ReadImage(photos[static_cast<size_t>(index)]);
+  };
+  return source;
+}
+
+}  // namespace
+
+bool ShowMat(const std::vector<std::filesystem::path>& photos) {
+  if (photos.size() < 2) return false;
+  int shown = 0;
+  for (const std::filesystem::path& path : photos) {
+    try {
+      shown += asset_lift::DetectMat(core::ReadImage(path)).has_value();
+    } catch (const core::Error&) {
+      continue;  // the reconstruction reports it
+    }
+    if (shown >= 2) return true;
+  }
+  return false;
+}
+
+LiftOutcome LiftToFolder(const MatLiftRequest& request, core::Progress* progress) {
+  core::StagedFolder staged(request.output, request.force);
+  const Finishing finishing{request.output,
+                            std::to_string(request.photos.size()) + " photos on a mat",
+                            physics_params::RequireCategory(request.category),
+                            0.0,
+                            request.size,
+                            request.stated,
+                            true,
+                            request.seed};
+  const auto start = std::chrono::steady_clock::now();
+  const asset_lift::CaptureSource source = SourceOf(request.photos);
+  asset_lift::CaptureOptions options;
+  options.print_scale = request.ruler / kNominalRuler;
+  const asset_lift::Capture capture = asset_lift::CaptureOnMat(source, options, progress);
+  asset_lift::CaptureLiftOptions fit;
+  fit.seed = request.seed;
+  asset_lift::LiftedMesh lifted = asset_lift::LiftCapture(capture, fit, progress);
+  WriteCaptureReport(source, capture, staged.staging());
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return FinishLift(finishing, seconds, std::move(lifted), &staged, progress);
+}
+
+}  // namespace simwright::workflows

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "asset_build/true_size.h"
+#include "core/progress.h"
+#include "physics_params/stated_physics.h"
+#include "workflows/lift/lift.h"
+
+namespace simwright::workflows {
+
+// Photos of one object on a printed mat (`simwright mat`).
+struct MatLiftRequest {
+  std::vector<std::filesystem::path> photos;
+  std::string category;
+  double ruler = 0.1;            // m, the measured length of the mat's printed ruler
+  asset_build::StatedSize size;  // overrides the size that the mat gives
+  physics_params::StatedPhysics stated;
+  std::uint64_t seed = 1;
+  std::filesystem::path output;  // the asset folder
+  bool force = false;
+};
+
+// Returns whether the photos are to be understood as views of one object on a mat: at least two of
+// them show one. Photos that cannot be read count as showing none.
+bool ShowMat(const std::vector<std::filesystem::path>& photos);
+
+// Reconstructs an asset folder from photos on a mat, and writes beside the asset matte.png and
+// lift.png (of the first photo) and the files of WriteCaptureReport. Throws
+// core::Error if a photo cannot be read, the category is unknown, fewer than four photos show the
+// mat, nothing stands on it, or the output exists; core::Cancelled.
+LiftOutcome LiftToFolder(const MatLiftRequest& request, core::Progress* progress);
+
+}  // namespace simwright::workflows
