@@ -1,12 +1,12 @@
 #include "physics_params/category_meaning.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace simwright::physics_params {
 namespace {
 
-constexpr int kHighest = 3;  // steps; further up are categories such as "container"
 constexpr int kAnimal = 5, kArtifact = 6, kFood = 13;
 
 // The artifact or food sense that a row means if it is not the first: WordNet's first plate lies on
@@ -60,8 +60,9 @@ std::vector<WordNet::Synset> SensesOf(std::string_view name, const WordNet& word
 }  // namespace
 
 std::optional<MeaningMatch> MatchByMeaning(std::string_view name, const KnowledgeBase& base,
-                                           const WordNet& wordnet) {
+                                           const WordNet& wordnet, int most_steps) {
   std::optional<MeaningMatch> best;
+  WordNet::Synset from = 0, to = 0;
   const std::vector<WordNet::Synset> senses = SensesOf(name, wordnet);
   if (senses.empty()) return best;
   for (const Category& category : base.categories()) {
@@ -69,12 +70,31 @@ std::optional<MeaningMatch> MatchByMeaning(std::string_view name, const Knowledg
     if (!kind) continue;
     for (const WordNet::Synset sense : senses) {
       const std::optional<int> steps = wordnet.StepsUp(sense, *kind);
-      if (steps && *steps <= kHighest && (!best || *steps < best->steps)) {
-        best = MeaningMatch{&category, *steps};
+      if (steps && *steps <= most_steps && (!best || *steps < best->steps)) {
+        best = MeaningMatch{&category, *steps, ""};
+        from = sense;
+        to = *kind;
       }
     }
   }
+  if (!best) return best;
+  for (const WordNet::Synset between : wordnet.Between(from, to)) {
+    best->via += (best->via.empty() ? "'" : ", '") + wordnet.Word(between) + "'";
+  }
   return best;
+}
+
+bool IsRareSense(const Category& category) {
+  return std::any_of(std::begin(kSenses), std::end(kSenses), [&](const auto& row) {
+    return row.category == category.name && row.sense > 1;
+  });
+}
+
+bool IsFood(std::string_view name, const WordNet& wordnet) {
+  const std::vector<WordNet::Synset> senses = wordnet.PhysicalSenses(name);
+  return std::any_of(senses.begin(), senses.end(), [&](WordNet::Synset sense) {
+    return wordnet.LexicographerFile(sense) == kFood;
+  });
 }
 
 std::vector<const Category*> NearestByMeaning(std::string_view name, const KnowledgeBase& base,

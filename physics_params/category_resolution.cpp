@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "physics_params/category_meaning.h"
+#include "physics_params/material_words.h"
 #include "physics_params/word_forms.h"
 
 namespace simwright::physics_params {
@@ -14,12 +15,33 @@ constexpr size_t kSuggestions = 3;
 // Names that WordNet lacks or knows by a rarer sense.
 constexpr struct {
   std::string_view name, category;
-} kAliases[] = {
-    {"torch", "flashlight"},     {"lorry", "truck"},           {"cafetiere", "french press"},
-    {"mobile", "phone"},         {"cellphone", "phone"},       {"tin", "tin can"},
-    {"trashbin", "trash can"},   {"garbage bin", "trash can"}, {"bin", "trash can"},
-    {"hob", "cooktop"},          {"cooker", "stove"},          {"clock", "wall clock"},
-    {"timepiece", "wall clock"}, {"sideboard", "cabinet"},     {"tankard", "beer mug"}};
+} kAliases[] = {{"torch", "flashlight"},
+                {"lorry", "truck"},
+                {"cafetiere", "french press"},
+                {"mobile", "phone"},
+                {"cellphone", "phone"},
+                {"tin", "tin can"},
+                {"trashbin", "trash can"},
+                {"garbage bin", "trash can"},
+                {"bin", "trash can"},
+                {"hob", "cooktop"},
+                {"cooker", "stove"},
+                {"clock", "wall clock"},
+                {"timepiece", "wall clock"},
+                {"sideboard", "cabinet"},
+                {"tankard", "beer mug"},
+                {"percolator", "coffee pot"},
+                {"chalice", "goblet"},
+                {"cushion", "pillow"},
+                {"notepad", "notebook"},
+                {"atlas", "book"},
+                {"cookbook", "book"},
+                {"highlighter", "marker"},
+                {"mallet", "hammer"},
+                {"clog", "shoe"},
+                {"plantain", "banana"},
+                {"computer monitor", "monitor"},
+                {"paper towel", "paper towel roll"}};
 
 int EditDistance(std::string_view a, std::string_view b) {
   std::vector<int> row(b.size() + 1);
@@ -37,7 +59,8 @@ int EditDistance(std::string_view a, std::string_view b) {
 
 class Resolver {
  public:
-  Resolver(const KnowledgeBase& base, const WordNet* wordnet) : base_(base), wordnet_(wordnet) {}
+  Resolver(const KnowledgeBase& base, const WordNet* wordnet, int most_steps)
+      : base_(base), wordnet_(wordnet), most_steps_(most_steps) {}
 
   Resolution Resolve(std::string_view name) const;
 
@@ -46,11 +69,14 @@ class Resolver {
   const Category* Known(const std::string& name) const;
   Resolution Meant(const std::string& name) const;
   Resolution OfHead(const std::string& name) const;
+  bool IsNoun(const std::string& word) const;
+  Resolution OfPackage(const std::string& name) const;
   bool IsWordOfItsOwn(const std::string& name) const;
   std::vector<std::string> Suggestions(const std::string& name) const;
 
   const KnowledgeBase& base_;
   const WordNet* wordnet_;
+  int most_steps_;
 };
 
 // Returns a resolution whose sentence is only the reason; Resolve prepends the names.
@@ -86,13 +112,17 @@ const Category* Resolver::Known(const std::string& name) const {
 Resolution Resolver::Meant(const std::string& name) const {
   if (const Category* known = Known(name)) return Taken(known, "");
   if (wordnet_ == nullptr) return {};
-  const std::optional<MeaningMatch> match = MatchByMeaning(name, base_, *wordnet_);
+  const std::optional<MeaningMatch> match = MatchByMeaning(name, base_, *wordnet_, most_steps_);
   if (!match) {
     const std::vector<std::string> words = WordsOf(name);
     return words.size() > 1 ? Meant(Joined(words, 0, words.size(), "")) : Resolution{};
   }
-  return Taken(match->category,
-               match->steps == 0 ? ", a synonym by WordNet" : ", of which it is a kind by WordNet");
+  if (match->steps == 0) return Taken(match->category, ", a synonym by WordNet");
+  Resolution found = Taken(
+      match->category, ", of which it is a kind by WordNet, " + std::to_string(match->steps) +
+                           (match->steps == 1 ? " step up" : " steps up by way of " + match->via));
+  found.steps = match->steps;
+  return found;
 }
 
 // A compound that WordNet lists as one word differs in meaning from its last word.
@@ -112,11 +142,33 @@ Resolution Resolver::OfHead(const std::string& name) const {
     const Resolution of_head = Meant(head);
     // A "screw driver" would resolve to a person, but no asset is a person by its last word.
     if (of_head.category != nullptr && of_head.category->name != "person") {
-      return Taken(of_head.category, " by its last word");
+      if (wordnet_ != nullptr && IsRareSense(*of_head.category) && IsNoun(words[first - 1])) {
+        return {};
+      }
+      Resolution found = Taken(of_head.category, " by its last word" + of_head.sentence);
+      found.steps = of_head.steps;
+      return WithNamedMaterial(words, first, base_, std::move(found));
     }
     if (IsWordOfItsOwn(head)) return {};
   }
   return {};
+}
+
+// Materials and foods before a last word describe it; other nouns may change its sense.
+bool Resolver::IsNoun(const std::string& word) const {
+  return wordnet_->HasNoun(word) && base_.FindMaterial(word) == nullptr && !IsFood(word, *wordnet_);
+}
+
+// Resolves "gelatin box" and "soup can": the bare words box and can also mean large ones.
+Resolution Resolver::OfPackage(const std::string& name) const {
+  const std::vector<std::string> words = WordsOf(name);
+  if (wordnet_ == nullptr || words.size() < 2) return {};
+  const std::string& last = words.back();
+  const char* package = last == "box"                    ? "food box"
+                        : last == "can" || last == "tin" ? "tin can"
+                                                         : nullptr;
+  if (package == nullptr || !IsFood(words[words.size() - 2], *wordnet_)) return {};
+  return Taken(base_.FindCategory(package), ", a package of food");
 }
 
 Resolution Resolver::Resolve(std::string_view name) const {
@@ -127,6 +179,7 @@ Resolution Resolver::Resolve(std::string_view name) const {
   const std::string plain = PlainName(name);
   const std::string head = PhraseHead(plain);
   Resolution found = Meant(head);
+  if (found.category == nullptr) found = OfPackage(head);
   if (found.category == nullptr && IsSmallCopy(head)) {
     found = Taken(base_.FindCategory("toy"), ", a small copy");
   } else if (found.category == nullptr && !IsWordOfItsOwn(head)) {
@@ -177,16 +230,16 @@ std::string Listed(const std::vector<std::string>& names) {
 
 }  // namespace
 
-Resolution ResolveCategory(std::string_view name, const KnowledgeBase& base,
-                           const WordNet* wordnet) {
-  return Resolver(base, wordnet).Resolve(name);
+Resolution ResolveCategory(std::string_view name, const KnowledgeBase& base, const WordNet* wordnet,
+                           int most_steps) {
+  return Resolver(base, wordnet, most_steps).Resolve(name);
 }
 
 Resolution RequireCategory(std::string_view name) {
   Resolution result = ResolveCategory(name, KnowledgeBase::Shipped(), WordNet::Installed());
   if (result.category == nullptr) {
     throw core::Error("no known category is near this name", "category '" + std::string(name) + "'",
-                      "the closest: " + Listed(result.closest) +
+                      "--category one of: " + Listed(result.closest) +
                           "; 'object' accepts any object of stated size" +
                           (WordNet::Installed() ? "" : "; install wordnet-base for more names"));
   }
@@ -199,9 +252,9 @@ core::Findings ResolutionFindings(const Resolution& resolution, const std::strin
     return {{"category", core::Severity::kInfo, place, resolution.sentence, 0.0,
              "--category sets another"}};
   }
-  return {{"category-unknown", core::Severity::kWarning, place, resolution.sentence, 0.0,
-           "name one with --category, the closest: " + Listed(resolution.closest) +
-               "; --mass or --density sets its mass"}};
+  return {
+      {"category-unknown", core::Severity::kWarning, place, resolution.sentence, 0.0,
+       "--category one of: " + Listed(resolution.closest) + "; --mass or --density sets its mass"}};
 }
 
 }  // namespace simwright::physics_params

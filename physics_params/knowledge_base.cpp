@@ -11,11 +11,14 @@ namespace data {
 std::string_view categories_txt();
 std::string_view materials_txt();
 std::string_view sources_txt();
+std::string_view variants_txt();
 }  // namespace data
 namespace {
 
 constexpr const char* kFillNames[] = {"solid", "hollow", "open", "frame"};
 constexpr const char* kShapeNames[] = {"round", "revolved", "box", "flat", "long", "free"};
+constexpr const char* kBasisNames[] = {"family", "objects"};
+constexpr const char* kSizeClassNames[] = {"small", "medium", "large"};
 
 std::vector<std::string> SplitColumns(std::string_view text, char separator) {
   std::vector<std::string> pieces;
@@ -101,7 +104,7 @@ std::string SourceSentence(const Row& row, const std::string& cell,
 }  // namespace
 
 KnowledgeBase::KnowledgeBase(std::string_view categories, std::string_view materials,
-                             std::string_view sources) {
+                             std::string_view sources, std::string_view variants) {
   std::map<std::string, std::string> source_of;
   for (const Row& row : Rows(sources, "sources", 2)) source_of[row.cells[0]] = row.cells[1];
   for (const Row& row : Rows(materials, "materials", 5)) {
@@ -126,11 +129,34 @@ KnowledgeBase::KnowledgeBase(std::string_view categories, std::string_view mater
     if (FindCategory(category.name) != nullptr) row.Fail("the name is repeated");
     categories_.push_back(std::move(category));
   }
+  ReadVariants(variants);
+}
+
+void KnowledgeBase::ReadVariants(std::string_view variants) {
+  for (const Row& row : Rows(variants, "variants", 5)) {
+    const auto owner = std::find_if(categories_.begin(), categories_.end(),
+                                    [&](const Category& one) { return one.name == row.cells[0]; });
+    if (owner == categories_.end()) row.Fail("unknown row '" + row.cells[0] + "'");
+    Variant variant;
+    variant.category = row.cells[1];
+    if (FindCategory(variant.category) == nullptr) {
+      row.Fail("unknown row '" + variant.category + "'");
+    }
+    variant.weight = ParseNumber(row, row.cells[2]);
+    if (row.cells[3] != "-") variant.size_class = SizeClass{row.Choice(3, kSizeClassNames)};
+    variant.from_objects = row.Choice(4, kBasisNames) == 1;
+    owner->variants.push_back(std::move(variant));
+    double total = 0.0;
+    for (const Variant& one : owner->variants) total += one.weight;
+    if (!(owner->variants.back().weight > 0.0 && total < 1.0)) {
+      row.Fail("weights must be above 0, and below 1 in all");
+    }
+  }
 }
 
 const KnowledgeBase& KnowledgeBase::Shipped() {
   static const KnowledgeBase base(data::categories_txt(), data::materials_txt(),
-                                  data::sources_txt());
+                                  data::sources_txt(), data::variants_txt());
   return base;
 }
 
@@ -161,6 +187,16 @@ const char* FillName(Fill fill) {
 }
 const char* ShapeName(Shape shape) {
   return kShapeNames[static_cast<int>(shape)];
+}
+const char* SizeClassName(SizeClass size_class) {
+  return kSizeClassNames[static_cast<int>(size_class)];
+}
+
+SizeClass SizeClassOf(std::string_view name) {
+  for (int i = 0; i < 3; ++i) {
+    if (name == kSizeClassNames[i]) return SizeClass{i};
+  }
+  throw core::Error("unknown size class", std::string(name), "one of small, medium, large");
 }
 
 }  // namespace simwright::physics_params

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,16 @@ struct Material {
   std::string source;
 };
 
+enum class SizeClass { kSmall, kMedium, kLarge };
+
+// Another row that the bare name of a row also covers, such as a plastic mug for a mug.
+struct Variant {
+  std::string category;  // the row's name
+  double weight = 0.0;   // share of such objects under the bare name, in (0, 1)
+  std::optional<SizeClass> size_class;
+  bool from_objects = false;  // written for measured objects, which then cannot judge it
+};
+
 // A category of household objects. `length` >= `width` are its horizontal sides, `height` is
 // vertical, in its upright pose.
 struct Category {
@@ -41,14 +52,18 @@ struct Category {
   Fill fill = Fill::kSolid;
   Shape shape = Shape::kFree;
   std::string source;  // a sentence
+  // The row itself keeps the rest of the weight.
+  std::vector<Variant> variants = {};
 };
 
 // The knowledge base of household objects. Immutable after construction; thread-safe.
 class KnowledgeBase {
  public:
-  // Parses the three tables (formats: the comments at their tops). Throws core::Error, naming table
-  // and line, for a malformed row, an unknown material or source, or min > max.
-  KnowledgeBase(std::string_view categories, std::string_view materials, std::string_view sources);
+  // Parses the tables (formats: the comments at their tops). Throws core::Error, naming table and
+  // line, for a malformed row, an unknown material, source or row, min > max, or variants whose
+  // weights reach 1.
+  KnowledgeBase(std::string_view categories, std::string_view materials, std::string_view sources,
+                std::string_view variants = "");
 
   // Returns the base that ships with the program.
   static const KnowledgeBase& Shipped();
@@ -61,6 +76,8 @@ class KnowledgeBase {
   const Material* FindMaterial(std::string_view name) const;
 
  private:
+  void ReadVariants(std::string_view variants);
+
   std::vector<Category> categories_;
   std::vector<Material> materials_;
 };
@@ -71,5 +88,9 @@ std::string NormaliseName(std::string_view name);
 
 const char* FillName(Fill fill);
 const char* ShapeName(Shape shape);
+const char* SizeClassName(SizeClass size_class);
+
+// Returns the class of a name: small, medium or large. Throws core::Error for another one.
+SizeClass SizeClassOf(std::string_view name);
 
 }  // namespace simwright::physics_params

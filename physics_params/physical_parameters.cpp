@@ -65,6 +65,7 @@ PhysicalParameters SampleParameters(const Category& category, const KnowledgeBas
   p.density = Sampled(material.density, core::Uniform(rng), material.source);
   p.friction = Sampled(material.friction, core::Uniform(rng), material.source);
   p.restitution = Sampled(material.restitution, core::Uniform(rng), material.source);
+  p.intervals = StateIntervals(category, base);
   return p;
 }
 

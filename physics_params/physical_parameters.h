@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "physics_params/knowledge_base.h"
+#include "physics_params/stated_interval.h"
 
 namespace simwright::physics_params {
 
@@ -31,12 +32,13 @@ struct PhysicalParameters {
   Estimate density;                // kg/m^3, of the material
   Estimate friction;               // Coulomb coefficient
   Estimate restitution;            // in [0, 1]
+  StatedIntervals intervals;       // calibrated, of size, mass and friction
 };
 
-// Samples an object of `category`: one quantile for its size (big objects are big in every
-// dimension), with a small variation per side, and a mass that follows the size. The row's
-// materials are sampled with weights 1, 1/2, 1/3 ... in their order. The same seed gives the same
-// object.
+// Samples an object of `category` and states its intervals: one quantile for its size (big objects
+// are big in every dimension), with a small variation per side, and a mass that follows the size.
+// The row's materials are sampled with weights 1, 1/2, 1/3 ... in their order. The same seed gives
+// the same object.
 PhysicalParameters SampleParameters(const Category& category, const KnowledgeBase& base,
                                     std::uint64_t seed);
 

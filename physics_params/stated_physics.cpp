@@ -54,9 +54,15 @@ void Validate(const StatedPhysics& stated) {
 }
 
 void Apply(const StatedPhysics& stated, PhysicalParameters* parameters) {
-  if (stated.mass) parameters->mass = Stated(*stated.mass);
+  if (stated.mass) {
+    parameters->mass = Stated(*stated.mass);
+    parameters->intervals.mass = {*stated.mass, *stated.mass};
+  }
   if (stated.density) parameters->density = Stated(*stated.density);
-  if (stated.friction) parameters->friction = Stated(*stated.friction);
+  if (stated.friction) {
+    parameters->friction = Stated(*stated.friction);
+    parameters->intervals.friction = {*stated.friction, *stated.friction};
+  }
 }
 
 MassModel ReconcileMass(const StatedPhysics& stated, const PhysicalParameters& parameters,

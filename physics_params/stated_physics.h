@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "physics_params/physical_parameters.h"
+#include "physics_params/variant_choice.h"
 
 namespace simwright::physics_params {
 
@@ -11,6 +12,7 @@ struct StatedPhysics {
   std::optional<double> mass;      // kg
   std::optional<double> density;   // kg/m^3, of the material: of the walls if a mass is stated too
   std::optional<double> friction;  // Coulomb coefficient
+  VariantChoice variant;           // the material and the size class
   bool Any() const { return mass || density || friction; }
 };
 
@@ -18,7 +20,8 @@ struct StatedPhysics {
 // friction below 0 or above 10.
 void Validate(const StatedPhysics& stated);
 
-// Sets the ranges and samples of stated properties to the value, with "stated" as their source.
+// Sets the ranges and samples of stated properties to the value, with "stated" as their source,
+// and the stated intervals of mass and friction to the same values.
 void Apply(const StatedPhysics& stated, PhysicalParameters* parameters);
 
 // Works like ReconcileMass, but keeps stated values exactly: a mass alone makes a solid, or walls

@@ -73,6 +73,8 @@ WordNet::WordNet(const std::filesystem::path& folder) {
     if (pointers_at >= fields.size()) return;
     Node node;
     node.lexicographer_file = WordnetNumber(fields[1]);
+    node.word = fields[4];
+    std::replace(node.word.begin(), node.word.end(), '_', ' ');
     const int count = WordnetNumber(fields[pointers_at]);
     for (int i = 0; i < count; ++i) {
       const size_t at = pointers_at + 1 + 4 * static_cast<size_t>(i);
@@ -180,6 +182,34 @@ double WordNet::Similarity(Synset a, Synset b) const {
 int WordNet::LexicographerFile(Synset synset) const {
   const auto node = nodes_.find(synset);
   return node == nodes_.end() ? 0 : node->second.lexicographer_file;
+}
+
+bool WordNet::HasNoun(std::string_view word) const {
+  return Lookup(std::string(word)) != nullptr;
+}
+
+std::string WordNet::Word(Synset synset) const {
+  const auto node = nodes_.find(synset);
+  return node == nodes_.end() ? "" : node->second.word;
+}
+
+std::vector<WordNet::Synset> WordNet::Between(Synset kind, Synset of) const {
+  std::vector<Synset> way;
+  std::optional<int> left = StepsUp(kind, of);
+  while (left && *left > 1) {
+    const auto node = nodes_.find(kind);
+    if (node == nodes_.end()) break;
+    for (const Synset parent : node->second.hypernyms) {
+      const std::optional<int> from_parent = StepsUp(parent, of);
+      if (from_parent && *from_parent < *left) {
+        kind = parent;
+        left = from_parent;
+        break;
+      }
+    }
+    way.push_back(kind);
+  }
+  return way;
 }
 
 std::optional<int> WordNet::StepsUp(Synset kind, Synset of) const {

@@ -27,12 +27,22 @@ class WordNet {
   // name as given, then its singular.
   std::vector<Synset> PhysicalSenses(std::string_view normalised_name) const;
 
+  // Returns true if WordNet lists the word as a noun of any kind.
+  bool HasNoun(std::string_view word) const;
+
   // Returns the lexicographer file of a synset: 5 animal, 6 artifact, 13 food, 17 natural object,
   // 18 person, 20 plant; 0 for an unknown one.
   int LexicographerFile(Synset synset) const;
 
   // Returns how many steps `of` lies above `kind`: 0 for the same synset, unset if it is not above.
   std::optional<int> StepsUp(Synset kind, Synset of) const;
+
+  // Returns the first word of a synset, "frying pan"; empty for an unknown one.
+  std::string Word(Synset synset) const;
+
+  // Returns the synsets strictly between `kind` and `of` on a shortest way up; empty if there is
+  // none between or no way.
+  std::vector<Synset> Between(Synset kind, Synset of) const;
 
   // Returns Wu and Palmer's similarity, 2 depth(c) / (depth(a) + depth(b)), c the deepest common
   // hypernym; 1 for a == b. Depths count from `entity`, which has 1.
@@ -45,6 +55,7 @@ class WordNet {
  private:
   struct Node {
     int lexicographer_file = 0;
+    std::string word;
     std::vector<Synset> hypernyms;
   };
 
