@@ -1,5 +1,6 @@
 #include "asset_build/asset_builder.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -10,6 +11,7 @@
 #include "core/log.h"
 #include "geometry/concavity.h"
 #include "geometry/mass_properties.h"
+#include "physics_params/volume_mass.h"
 
 namespace simwright::asset_build {
 namespace {
@@ -64,9 +66,25 @@ void ReportDensity(double density, assets::Asset* asset) {
                              density, "correct --mass, --density or the size"});
 }
 
+// Lets the mass follow from the measured volume: states its interval, and moves the sample into it.
+void UseMeasuredVolume(const BuildRequest& request, const physics_params::Category& category,
+                       double volume, double area, assets::Asset* asset) {
+  const bool weighed = request.stated.mass || request.stated.density;
+  if (!request.volume_error || weighed || category.name == "object") return;
+  const physics_params::MeasuredMass measured = physics_params::MassOfMeasured(
+      category, physics_params::KnowledgeBase::Shipped(), volume, area, *request.volume_error);
+  asset->parameters.intervals.mass = measured.mass;
+  asset->parameters.intervals.basis += "; " + measured.sentence;
+  physics_params::Estimate& mass = asset->parameters.mass;
+  mass.sample = std::clamp(mass.sample, measured.mass.min, measured.mass.max);
+  mass.min = std::min(mass.min, mass.sample);
+  mass.max = std::max(mass.max, mass.sample);
+}
+
 void GiveMass(const BuildRequest& request, assets::Asset* asset) {
   const auto& base = physics_params::KnowledgeBase::Shipped();
-  const physics_params::Category& category = *request.category.category;
+  const physics_params::Category category =
+      physics_params::ChosenRow(request.category, request.stated.variant, base);
   const core::Findings understood =
       physics_params::ResolutionFindings(request.category, asset->name);
   asset->findings.insert(asset->findings.end(), understood.begin(), understood.end());
@@ -84,10 +102,11 @@ void GiveMass(const BuildRequest& request, assets::Asset* asset) {
          weighed ? "give the true size with --height or --size"
                  : "give the true size with --height or --size, and the mass with --mass"});
   }
+  const double area = core::SurfaceArea(asset->solid);
+  UseMeasuredVolume(request, category, unit.volume, area, asset);
   Apply(request.stated, &asset->parameters);
   const physics_params::MassModel model =
-      ReconcileMass(request.stated, asset->parameters, category, base, unit.volume,
-                    core::SurfaceArea(asset->solid));
+      ReconcileMass(request.stated, asset->parameters, category, base, unit.volume, area);
   ReportDensity(model.density, asset);
   const geometry::MassProperties mass =
       model.wall_thickness > 0.0

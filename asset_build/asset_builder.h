@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct BuildRequest {
   std::string source;                    // the photo's or mesh's file name
   physics_params::Resolution category;   // from RequireCategory or ResolveCategory; not null
   physics_params::StatedPhysics stated;  // by the user; takes precedence
+  // The standard error of the logarithm of the volume, if the shape was measured at true size: an
+  // imported mesh, or many photos with a scale. The mass then follows from material and volume.
+  std::optional<double> volume_error;
   std::uint64_t seed = 1;
   geometry::SolidOptions solid;
   geometry::DecompositionOptions decomposition;

@@ -13,6 +13,30 @@ physics_params::Estimate EstimateFrom(const JsonField& field) {
           field["source"].Text()};
 }
 
+physics_params::StatedIntervals IntervalsFrom(const JsonField& field) {
+  const auto range = [&](const char* key) {
+    const std::vector<double> ends = field[key].Numbers(2);
+    return physics_params::Interval{ends[0], ends[1]};
+  };
+  physics_params::StatedIntervals stated;
+  stated.probability = physics_params::kStatedProbability;
+  stated.longest_side = range("longest_side_m");
+  stated.mass = range("mass_kg");
+  stated.friction = range("friction");
+  stated.basis = field["basis"].Text();
+  return stated;
+}
+
+OrderedJson IntervalsToJson(const physics_params::StatedIntervals& stated) {
+  const auto range = [](const physics_params::Interval& one) {
+    return OrderedJson::array({one.min, one.max});
+  };
+  return {{"longest_side_m", range(stated.longest_side)},
+          {"mass_kg", range(stated.mass)},
+          {"friction", range(stated.friction)},
+          {"basis", stated.basis}};
+}
+
 }  // namespace
 
 OrderedJson ToJson(const physics_params::Estimate& e) {
@@ -53,6 +77,7 @@ OrderedJson ToJson(const physics_params::PhysicalParameters& p) {
                       {"density_kg_m3", ToJson(p.density)}};
   json["friction"] = ToJson(p.friction);
   json["restitution"] = ToJson(p.restitution);
+  if (p.intervals.probability > 0.0) json["interval_90"] = IntervalsToJson(p.intervals);
   return json;
 }
 
@@ -97,6 +122,7 @@ physics_params::PhysicalParameters ParametersFrom(const JsonField& field) {
   p.density = EstimateFrom(field["material"]["density_kg_m3"]);
   p.friction = EstimateFrom(field["friction"]);
   p.restitution = EstimateFrom(field["restitution"]);
+  if (field.Has("interval_90")) p.intervals = IntervalsFrom(field["interval_90"]);
   return p;
 }
 

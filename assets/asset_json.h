@@ -22,7 +22,7 @@ core::OrderedJson ToJson(const Eigen::Matrix3d& m);       // rows
 core::OrderedJson ToJson(const Eigen::Isometry3d& pose);  // rotation_wxyz, translation
 core::OrderedJson ToJson(const Inertial& inertial);       // mass, center_of_mass, inertia
 // Returns the category's row: category, category_resolution, size_m, mass_kg, material, friction,
-// restitution.
+// restitution, and interval_90 if intervals are stated.
 core::OrderedJson ToJson(const physics_params::PhysicalParameters& parameters);
 
 // Reads the asset.json of a folder. Throws core::Error if it is damaged or of a newer version.

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/language_model_options.h"
+#include "cli/stated_options.h"
 #include "core/error.h"
 #include "core/finding.h"
 #include "core/json.h"
@@ -21,6 +22,7 @@ using physics_params::PhysicalParameters;
 struct PhysicsFlags {
   std::string category;
   std::filesystem::path asset;
+  physics_params::VariantChoice variant;
   LanguageModelOptions language_model;
 };
 
@@ -33,6 +35,17 @@ struct Result {
 
 core::OrderedJson PhysicsToJson(const Estimate& e) {
   return {{"min", e.min}, {"max", e.max}, {"sample", e.sample}};
+}
+
+// Returns the same object as asset.json holds.
+core::OrderedJson IntervalsToJson(const physics_params::StatedIntervals& stated) {
+  const auto range = [](const physics_params::Interval& one) {
+    return core::OrderedJson::array({one.min, one.max});
+  };
+  return {{"longest_side_m", range(stated.longest_side)},
+          {"mass_kg", range(stated.mass)},
+          {"friction", range(stated.friction)},
+          {"basis", stated.basis}};
 }
 
 void PrintResultJson(const Result& result) {
@@ -50,6 +63,7 @@ void PrintResultJson(const Result& result) {
   json["density_kg_m3"] = PhysicsToJson(p.density);
   json["friction"] = PhysicsToJson(p.friction);
   json["restitution"] = PhysicsToJson(p.restitution);
+  if (p.intervals.probability > 0.0) json["interval_90"] = IntervalsToJson(p.intervals);
   json["sources"] = {{"length", p.length.source},
                      {"width", p.width.source},
                      {"height", p.height.source},
@@ -60,6 +74,18 @@ void PrintResultJson(const Result& result) {
 
 void PrintRow(const char* name, const Estimate& e, const char* unit) {
   std::printf("  %-12s %9.4g to %-9.4g sample %-9.4g %s\n", name, e.min, e.max, e.sample, unit);
+}
+
+// Prints the intervals that hold with a stated probability, if there are any.
+void PrintIntervals(const physics_params::StatedIntervals& stated) {
+  if (!(stated.probability > 0.0)) return;
+  std::printf("  90 %% intervals %s:\n", stated.basis.c_str());
+  const auto print = [](const char* name, const physics_params::Interval& range, const char* unit) {
+    std::printf("  %-12s %9.4g to %-9.4g %s\n", name, range.min, range.max, unit);
+  };
+  print("longest side", stated.longest_side, "m");
+  print("mass", stated.mass, "kg");
+  print("friction", stated.friction, "");
 }
 
 // Prints "size and mass: ..." if all have the same source, else one line per quantity.
@@ -85,6 +111,7 @@ void PrintTable(const Result& result, bool quiet) {
            ("kg/m3, " + p.material + ", " + physics_params::FillName(p.fill)).c_str());
   PrintRow("friction", p.friction, "");
   PrintRow("restitution", p.restitution, "");
+  PrintIntervals(p.intervals);
   PrintSources(p);
   if (quiet) return;
   if (!result.usage.empty()) std::printf("  %s\n", result.usage.c_str());
@@ -115,8 +142,9 @@ int Physics(const PhysicsFlags& flags, const CommonOptions& common) {
     result = AskModel(flags, common);
   } else {
     const physics_params::Resolution resolution = physics_params::RequireCategory(flags.category);
+    const physics_params::KnowledgeBase& base = physics_params::KnowledgeBase::Shipped();
     result.parameters = physics_params::SampleParameters(
-        *resolution.category, physics_params::KnowledgeBase::Shipped(), common.seed);
+        physics_params::ChosenRow(resolution, flags.variant, base), base, common.seed);
     result.parameters.resolution = resolution.sentence;
     result.findings = physics_params::ResolutionFindings(resolution, flags.category);
   }
@@ -140,6 +168,7 @@ void AddPhysics(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright physics --category 'lava lamp' --llm http://localhost:8080/v1 --record l.jsonl");
   command->add_option("asset", flags->asset, "An asset folder, whose parameters are printed");
   command->add_option("--category", flags->category, "A household object, e.g. 'wine glass'");
+  AddVariantOptions(command, &flags->variant);
   AddLanguageModel(command, &flags->language_model);
   AddForce(command, common);
   AddCommon(command, common);

@@ -4,6 +4,22 @@
 
 namespace simwright::cli {
 
+void AddVariantOptions(CLI::App* command, physics_params::VariantChoice* variant) {
+  command
+      ->add_option("--material", variant->material,
+                   "The material, e.g. plastic: chooses a variant of the category")
+      ->default_str("from the category");
+  command
+      ->add_option_function<std::string>(
+          "--size-class",
+          [variant](const std::string& name) {
+            variant->size_class = physics_params::SizeClassOf(name);
+          },
+          "A small, medium or large object of its category")
+      ->check(CLI::IsMember({"small", "medium", "large"}))
+      ->default_str("any");
+}
+
 void AddStatedOptions(CLI::App* command, asset_build::StatedSize* size,
                       physics_params::StatedPhysics* stated) {
   command
@@ -23,6 +39,7 @@ void AddStatedOptions(CLI::App* command, asset_build::StatedSize* size,
           "The material's density, kg/m3: fills the shape, or with --mass gives a hollow one")
       ->check(Positive())
       ->default_str("from the material");
+  AddVariantOptions(command, &stated->variant);
   command->add_option("--friction", stated->friction, "Coulomb coefficient")
       ->check(CLI::Range(0.0, 10.0))
       ->default_str("from the material");

@@ -6,7 +6,11 @@
 
 namespace simwright::cli {
 
-// Adds --size, --mass, --density and --friction, which mean the same in lift and import.
+// Adds --material and --size-class, which choose a variant of a category.
+void AddVariantOptions(CLI::App* command, physics_params::VariantChoice* variant);
+
+// Adds --size, --mass, --density, --friction and the options of variants, which mean the same in
+// lift and import.
 void AddStatedOptions(CLI::App* command, asset_build::StatedSize* size,
                       physics_params::StatedPhysics* stated);
 

@@ -246,6 +246,13 @@ Resolution RequireCategory(std::string_view name) {
   return result;
 }
 
+Category ChosenRow(const Resolution& resolution, const VariantChoice& choice,
+                   const KnowledgeBase& base) {
+  VariantChoice all = choice;
+  if (!all.material && !resolution.material.empty()) all.material = resolution.material;
+  return ChosenVariant(*resolution.category, base, all);
+}
+
 core::Findings ResolutionFindings(const Resolution& resolution, const std::string& place) {
   if (resolution.exact) return {};
   if (resolution.closest.empty()) {

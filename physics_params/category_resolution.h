@@ -6,6 +6,7 @@
 
 #include "core/finding.h"
 #include "physics_params/knowledge_base.h"
+#include "physics_params/variant_choice.h"
 #include "physics_params/wordnet.h"
 
 namespace simwright::physics_params {
@@ -43,6 +44,11 @@ Resolution ResolveCategory(std::string_view name, const KnowledgeBase& base, con
 // Resolves with the shipped base and the installed WordNet. Throws core::Error, which names the
 // three closest categories and "object", if there is none.
 Resolution RequireCategory(std::string_view name);
+
+// Returns the resolved row with the variant that `choice` or, where it has no material, the name
+// states. Throws core::Error as ChosenVariant does. The resolution has a category.
+Category ChosenRow(const Resolution& resolution, const VariantChoice& choice,
+                   const KnowledgeBase& base);
 
 // Reports how a name was resolved: nothing if exact, a note if it was taken for another name, a
 // warning if nothing was near and "object" stands in.

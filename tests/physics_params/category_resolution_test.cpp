@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "tests/physics_params/measured/measured_objects.h"
 
 namespace simwright::physics_params {
 namespace {
@@ -155,6 +156,58 @@ TEST(CategoryResolution, FarNamesAreRefusedWithTheThreeNearest) {
   }
   const std::vector<std::string> slip = Resolve("mugg").closest;
   EXPECT_EQ(slip.empty() ? "" : slip[0], "mug");
+}
+
+// The table of names with the answers that a person accepts: all but a few of the tuning half,
+// which the rules were written on, and four of five of the held-out half. A wrong row is worse than
+// a refusal, so that wrong rows have a bound of their own.
+TEST(CategoryResolution, AnswersTheTableOfNames) {
+  if (WordNet::Installed() == nullptr) GTEST_SKIP() << "wordnet-base is not installed";
+  const std::vector<NameAnswer> answers = NameAnswers();
+  EXPECT_GE(answers.size(), 60u);
+  int right[2] = {0, 0}, wrong_row[2] = {0, 0}, all[2] = {0, 0};
+  for (const NameAnswer& answer : answers) {
+    const bool accepted = IsAccepted(answer);
+    right[answer.tuning] += accepted ? 1 : 0;
+    wrong_row[answer.tuning] += !accepted && Resolve(answer.name).category != nullptr ? 1 : 0;
+    ++all[answer.tuning];
+  }
+  EXPECT_GE(right[1], all[1] - 2);
+  EXPECT_GE(right[0], 0.78 * all[0]);
+  EXPECT_LE(wrong_row[0], 0.12 * all[0]);
+}
+
+TEST(CategoryResolution, StatesStepsAndTheWay) {
+  if (WordNet::Installed() == nullptr) GTEST_SKIP() << "wordnet-base is not installed";
+  EXPECT_EQ(Resolve("valise").sentence,
+            "'valise' is taken for 'suitcase', of which it is a kind by WordNet, 2 steps up by way "
+            "of 'overnighter'");
+  EXPECT_EQ(Resolve("valise").steps, 2);
+  EXPECT_EQ(Resolve("loveseat").sentence,
+            "'loveseat' is taken for 'sofa', of which it is a kind by WordNet, 1 step up");
+  EXPECT_EQ(ResolveCategory("valise", KnowledgeBase::Shipped(), WordNet::Installed(), 1).category,
+            nullptr);
+}
+
+TEST(CategoryResolution, NamedMaterialsChooseOrRefuse) {
+  if (WordNet::Installed() == nullptr) GTEST_SKIP() << "wordnet-base is not installed";
+  EXPECT_EQ(Resolve("plastic apple").category->name, "toy apple");
+  EXPECT_EQ(Resolve("plastic apple").material, "plastic");
+  EXPECT_EQ(Resolve("steel pan").material, "steel");
+  EXPECT_EQ(Resolve("foam die").category, nullptr);
+  EXPECT_EQ(Resolve("leather sofa").category->name, "sofa");
+  EXPECT_EQ(Resolve("gelatin box").category->name, "food box");
+  EXPECT_EQ(Resolve("air quality monitor").category, nullptr);
+  // A puzzle cube is a row of its own; no kind of cube is a die.
+  EXPECT_EQ(Resolve("puzzle cube").category->name, "puzzle cube");
+  EXPECT_EQ(Resolve("cube").category, nullptr);
+  try {
+    RequireCategory("foam die");
+    FAIL();
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("--category one of: "), std::string::npos)
+        << error.what();
+  }
 }
 
 // Each row is found by its own name, and by its regular plural.

@@ -36,6 +36,8 @@ namespace {
 constexpr double kLightest = 1.0, kOsmium = 22600.0;
 constexpr double kThinnest = 1e-3;  // m, the minimum side of that box
 
+// The standard error of ln(volume) of an imported mesh: its unit is known, its details are coarse.
+constexpr double kImportedVolumeError = 0.05;
 constexpr const char* kStopped = "stopped before it was done";
 
 bool IsCatalogue(const fs::path& path) {
@@ -264,6 +266,7 @@ class Importer {
       RequireMeantSize(*request.category.category, core::Bounds(visual.mesh).sizes(), item.mesh);
     }
     request.stated = options_.stated;
+    request.volume_error = kImportedVolumeError;
     if (source != nullptr) {
       TakeMassOfFile(item, source->model, visual.mesh, &request.stated, &findings);
     }

@@ -78,6 +78,10 @@ asset_lift::CategoryPrior PriorOf(const physics_params::Category& category) {
 
 namespace {
 
+// The standard error of ln(volume) of a reconstruction from many photos in metres: an assumption of
+// 5 % a side.
+constexpr double kPhotoVolumeError = 0.15;
+
 // Reports that the size was sampled, because a single photo does not determine it.
 core::Finding SizeDrawn(const physics_params::Category& category, const Eigen::Vector3d& sides,
                         const std::string& photo) {
@@ -97,7 +101,9 @@ LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
                        asset_lift::LiftedMesh lifted, core::StagedFolder* staged,
                        core::Progress* progress) {
   const physics_params::PhysicalParameters parameters = physics_params::SampleParameters(
-      *finishing.category.category, physics_params::KnowledgeBase::Shipped(), finishing.seed);
+      physics_params::ChosenRow(finishing.category, finishing.stated.variant,
+                                physics_params::KnowledgeBase::Shipped()),
+      physics_params::KnowledgeBase::Shipped(), finishing.seed);
   const core::Image cut = CutOut(lifted);
   const core::Image sheet = LiftSheet(lifted, cut);
   double scale = finishing.metric && finishing.height <= 0.0
@@ -121,6 +127,7 @@ LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
   build.category = finishing.category;
   build.stated = finishing.stated;
   build.seed = finishing.seed;
+  if (finishing.metric) build.volume_error = kPhotoVolumeError;
   asset_build::BuiltAsset built = asset_build::BuildAsset(lifted.mesh, build, progress);
   built.asset.scale = scale;
   built.asset.findings.insert(built.asset.findings.begin(), lifted.findings.begin(),
