@@ -139,7 +139,11 @@ MeasuredMass MassOfMeasured(const Category& category, const KnowledgeBase& base,
   MeasuredMass measured;
   measured.mass = {std::max(by_volume.min, by_name.min), std::min(by_volume.max, by_name.max)};
   const bool agree = measured.mass.min <= measured.mass.max;
-  if (!agree) measured.mass = MassFromVolume(input, kStatedProbability).mass;
+  const Interval volume_alone = MassFromVolume(input, kStatedProbability).mass;
+  if (!agree) measured.mass = volume_alone;
+  for (const Interval& one : {volume_alone, StatedInterval(category, base, Quantity::kMass)}) {
+    if (agree && one.max / one.min < measured.mass.max / measured.mass.min) measured.mass = one;
+  }
   std::string materials;
   for (const std::string& name : category.materials) {
     materials += (materials.empty() ? "" : " or ") + name;

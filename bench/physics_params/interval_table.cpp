@@ -79,16 +79,31 @@ void PrintIntervals(const std::vector<MeasuredObject>& measured) {
   }
 }
 
+// Prints the share of right answers of a half and, of the others, the wrong rows.
+void PrintHalfOfNames(const std::vector<NameAnswer>& answers, bool tuning, int steps) {
+  int right = 0, wrong_row = 0, all = 0;
+  for (const NameAnswer& answer : answers) {
+    if (answer.tuning != tuning) continue;
+    const bool accepted = IsAccepted(answer, steps);
+    const Resolution found =
+        ResolveCategory(answer.name, KnowledgeBase::Shipped(), WordNet::Installed(), steps);
+    right += accepted ? 1 : 0;
+    wrong_row += !accepted && found.category != nullptr ? 1 : 0;
+    ++all;
+  }
+  std::printf(" %d of %d | %d | %d |", right, all, wrong_row, all - right - wrong_row);
+}
+
 void PrintNames() {
   const std::vector<NameAnswer> answers = NameAnswers();
-  std::printf("\n| most steps | tuning names right | held-out names right |\n|---|---|---|\n");
+  std::printf(
+      "\n| most steps | tuning: right | wrong row | refused | held-out: right | wrong row | "
+      "refused |\n|---|---|---|---|---|---|---|\n");
   for (int steps = 0; steps <= 5; ++steps) {
-    int right[2] = {0, 0}, all[2] = {0, 0};
-    for (const NameAnswer& answer : answers) {
-      right[answer.tuning] += IsAccepted(answer, steps) ? 1 : 0;
-      ++all[answer.tuning];
-    }
-    std::printf("| %d | %d of %d | %d of %d |\n", steps, right[1], all[1], right[0], all[0]);
+    std::printf("| %d |", steps);
+    PrintHalfOfNames(answers, true, steps);
+    PrintHalfOfNames(answers, false, steps);
+    std::printf("\n");
   }
 }
 
