@@ -104,7 +104,7 @@ TEST_F(CommandLine, BadPhotosAreRefused) {
   ExpectRefused(lift(Write("huge.png", huge)), "100000 x 100000");
   Write("disc.png", png);
   ExpectRefused("lift " + (folder_ / "disc.png").string() + " --category democracy -o " + Out(),
-                "closest");
+                "--category one of: ");
 }
 
 TEST_F(CommandLine, BadMeshesAreRefused) {
@@ -311,7 +311,12 @@ TEST_F(CommandLine, PhysicsPrintsRangesAndSample) {
     EXPECT_NE(outcome.text.find(key), std::string::npos) << key;
   }
   EXPECT_EQ(RunProgram("physics --category mug --seed 3 --json").text, outcome.text);
+  EXPECT_NE(outcome.text.find("interval_90"), std::string::npos);
   ExpectRefused("physics --category mugg", "mug");
+  const Outcome plastic = RunProgram("physics --category mug --material plastic --json");
+  EXPECT_NE(plastic.text.find("\"plastic mug\""), std::string::npos) << plastic.text;
+  ExpectRefused("physics --category mug --material concrete", "--material one of: ceramic");
+  EXPECT_EQ(RunProgram("physics --category mug --size-class huge").code, 2);
 }
 
 }  // namespace
