@@ -51,11 +51,11 @@ struct MeasuredMass {
   std::string sentence;  // "its measured volume of 1.45 l in wood weighs 0.61 to 1.2 kg"
 };
 
-// Combines what the name and the volume say: the narrowest of the name's 90 % interval, the volume's
-// 90 % interval, and the intersection of their 95 % intervals, which holds with 90 % at least,
-// whatever their dependence. The choice depends on widths alone, so that a volume never widens an
-// interval. If the 95 % intervals do not overlap, the volume's 90 % interval stands, and the
-// sentence says so.
+// Combines what the name and the volume say: the narrowest of the name's 90 % interval, the
+// volume's 90 % interval, and the intersection of their 95 % intervals, which holds with 90 % at
+// least, whatever their dependence. The choice depends on widths alone, so that a volume never
+// widens an interval. If the 95 % intervals do not overlap, the volume's 90 % interval stands, and
+// the sentence says so.
 MeasuredMass MassOfMeasured(const Category& category, const KnowledgeBase& base, double volume,
                             double area, double volume_error);
 

@@ -22,15 +22,15 @@ const Category& RowNamed(const char* name) {
 
 // A row without variants states its own range as the central 90 %.
 TEST(StatedInterval, ARowAloneStatesItsRange) {
-  const Category& lemon = RowNamed("chef knife");
-  ASSERT_TRUE(lemon.variants.empty());
-  const Interval mass = MixtureInterval(lemon, StatedBase(), Quantity::kMass, 0.9);
-  EXPECT_NEAR(mass.min, lemon.mass.min, 1e-9);
-  EXPECT_NEAR(mass.max, lemon.mass.max, 1e-9);
-  const Interval wider = MixtureInterval(lemon, StatedBase(), Quantity::kMass, 0.95);
+  const Category& knife = RowNamed("chef knife");
+  ASSERT_TRUE(knife.variants.empty());
+  const Interval mass = MixtureInterval(knife, StatedBase(), Quantity::kMass, 0.9);
+  EXPECT_NEAR(mass.min, knife.mass.min, 1e-9);
+  EXPECT_NEAR(mass.max, knife.mass.max, 1e-9);
+  const Interval wider = MixtureInterval(knife, StatedBase(), Quantity::kMass, 0.95);
   EXPECT_NEAR(std::log(wider.max / wider.min) / std::log(mass.max / mass.min),
               1.959963984540054 / 1.6448536269514722, 1e-9);
-  EXPECT_THROW(MixtureInterval(lemon, StatedBase(), Quantity::kMass, 1.0), core::Error);
+  EXPECT_THROW(MixtureInterval(knife, StatedBase(), Quantity::kMass, 1.0), core::Error);
 }
 
 // Brute force: the shares of a million draws of the mixture below and above the interval.
@@ -152,11 +152,11 @@ TEST(Variants, SizeClassChoosesTheVariantOrAThirdOfTheRange) {
   EXPECT_EQ(
       ChosenVariant(RowNamed("battery"), StatedBase(), {std::nullopt, SizeClass::kLarge}).name,
       "d battery");
-  const Category& bowl = RowNamed("chef knife");
-  const Category medium = ChosenVariant(bowl, StatedBase(), {std::nullopt, SizeClass::kMedium});
+  const Category& knife = RowNamed("chef knife");
+  const Category medium = ChosenVariant(knife, StatedBase(), {std::nullopt, SizeClass::kMedium});
   EXPECT_NEAR(std::log(medium.mass.max / medium.mass.min),
-              std::log(bowl.mass.max / bowl.mass.min) / 3.0, 1e-12);
-  EXPECT_NEAR(medium.mass.min * medium.mass.max, bowl.mass.min * bowl.mass.max, 1e-12);
+              std::log(knife.mass.max / knife.mass.min) / 3.0, 1e-12);
+  EXPECT_NEAR(medium.mass.min * medium.mass.max, knife.mass.min * knife.mass.max, 1e-12);
   EXPECT_THROW(SizeClassOf("tiny"), core::Error);
 }
 
