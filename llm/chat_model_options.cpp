@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "llm/http_post.h"
+#include "llm/http_client.h"
 
 namespace simwright::llm {
 namespace {
@@ -67,11 +67,6 @@ std::string OperationPath(std::string path) {
   return (path.empty() ? "/v1" : path) + std::string(kOperation);
 }
 
-bool IsLoopback(const std::string& host) {
-  return host == "localhost" || host.ends_with(".localhost") || host == "[::1]" ||
-         host.rfind("127.", 0) == 0;
-}
-
 }  // namespace
 
 bool ChatModelOptions::IsValid(std::string* error) const {
@@ -102,12 +97,11 @@ Endpoint ResolveEndpoint(const std::string& url) {
   endpoint.https = parts.scheme == "https";
   endpoint.host = parts.host;
   endpoint.password = parts.password;
-  endpoint.origin = parts.scheme + "://" + parts.host + ":" + parts.port;
+  endpoint.origin = OriginOf(url);
   endpoint.loopback = IsLoopback(parts.host);
   const std::string path = OperationPath(parts.path);
   endpoint.address = WithPath(url, path);
-  const bool usual_port = parts.port == (endpoint.https ? "443" : "80");
-  endpoint.shown = parts.scheme + "://" + parts.host + (usual_port ? "" : ":" + parts.port) + path;
+  endpoint.shown = ShownUrl(endpoint.address);
   return endpoint;
 }
 

@@ -12,37 +12,10 @@ namespace {
 
 constexpr std::size_t kLongestQuote = 300;  // bytes of a server's message
 
-bool IsRedirect(long status) {
-  return status == 301 || status == 302 || status == 307 || status == 308;
-}
-
-bool WorthAnotherTry(long status) {
-  return status == 429 || (status >= 500 && status <= 599);
-}
-
 std::string Seconds(double seconds) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.0f s", seconds);
   return text;
-}
-
-// Returns an address without user, query and fragment.
-std::string ShownAddress(const std::string& url) {
-  try {
-    const UrlParts parts = SplitUrl(url);
-    return parts.scheme + "://" + parts.host + ":" + parts.port + parts.path;
-  } catch (const core::Error&) {
-    return "not an http or https address";
-  }
-}
-
-std::string OriginOf(const std::string& url) {
-  try {
-    const UrlParts parts = SplitUrl(url);
-    return parts.scheme + "://" + parts.host + ":" + parts.port;
-  } catch (const core::Error&) {
-    return "";
-  }
 }
 
 }  // namespace
@@ -169,7 +142,7 @@ OpenAiChatModel::Verdict OpenAiChatModel::JudgeRedirect(const HttpReply& reply) 
   if (reply.redirect.empty()) {
     verdict.sentence = "the server redirects without an address";
   } else if (OriginOf(reply.redirect) != endpoint_.origin) {
-    verdict.sentence = "the server redirects to " + ShownAddress(reply.redirect) +
+    verdict.sentence = "the server redirects to " + ShownUrl(reply.redirect) +
                        ", which is not the server that the key is for";
     verdict.remedy = "give that address if you trust it";
   } else if (++redirects_ > options_.max_redirects) {

@@ -6,7 +6,7 @@
 #include "core/log.h"
 #include "llm/chat_model.h"
 #include "llm/chat_model_options.h"
-#include "llm/http_post.h"
+#include "llm/http_client.h"
 #include "llm/request_body.h"
 #include "llm/response_reader.h"
 #include "llm/retry_schedule.h"

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "core/progress.h"
-#include "llm/http_post.h"
+#include "llm/http_client.h"
 
 namespace simwright::llm {
 namespace {

@@ -15,11 +15,27 @@ struct UrlParts {
   std::string password;  // decoded
 };
 
+// The name of an address and an example of it, for messages about an address that is none.
+struct UrlRole {
+  std::string name = "the LLM server's URL";
+  std::string remedy = "for example http://localhost:8080/v1";
+};
+
 // Splits a URL. Throws core::Error, without a secret in it, unless `url` is an http or https
 // address with a host.
-UrlParts SplitUrl(const std::string& url);
+UrlParts SplitUrl(const std::string& url, const UrlRole& role = {});
 // Returns `url` with its path replaced and its fragment dropped; user and query stay.
 std::string WithPath(const std::string& url, const std::string& path);
+// Returns the absolute address of `reference`, which may be relative to `base`; "" if it is no http
+// or https address.
+std::string ResolvedUrl(const std::string& base, const std::string& reference);
+// Returns scheme://host:port, for comparison; "" if `url` is no http or https address.
+std::string OriginOf(const std::string& url);
+// Returns the address without user, password, query and fragment, and without the scheme's default
+// port, for messages.
+std::string ShownUrl(const std::string& url);
+// Returns true for the host of an address on this machine: localhost, 127.x.x.x or [::1].
+bool IsLoopback(const std::string& host);
 
 struct HttpLimits {
   double connect_timeout = 10.0;  // s
@@ -52,6 +68,14 @@ struct HttpReply {
 HttpReply HttpPost(const std::string& url, const std::vector<std::string>& headers,
                    const std::string& body, const HttpLimits& limits,
                    const std::function<bool()>& cancelled);
+// Requests `url` by GET; otherwise like HttpPost.
+HttpReply HttpGet(const std::string& url, const std::vector<std::string>& headers,
+                  const HttpLimits& limits, const std::function<bool()>& cancelled);
+
+// Returns true for a redirect after which the same request may be sent again.
+bool IsRedirect(long status);
+// Returns true for a status that may pass: 429 and 5xx.
+bool WorthAnotherTry(long status);
 
 // Returns the seconds since 1970 of an HTTP date, or -1 if `text` is not one.
 double ParseHttpDate(const std::string& text);

@@ -1,4 +1,4 @@
-#include "llm/http_post.h"
+#include "llm/http_client.h"
 
 #include <curl/curl.h>
 
@@ -41,15 +41,14 @@ std::string Part(CURLU* url, CURLUPart part, unsigned flags, const std::string& 
   return value;
 }
 
-UrlHandle ParseUrl(const std::string& url) {
+UrlHandle ParseUrl(const std::string& url, const UrlRole& role = {}) {
   InitialiseOnce();
   UrlHandle handle(curl_url());
   if (handle == nullptr) throw std::bad_alloc();
   const CURLUcode code = curl_url_set(handle.get(), CURLUPART_URL, url.c_str(), 0);
   const std::string scheme = code == CURLUE_OK ? Part(handle.get(), CURLUPART_SCHEME, 0) : "";
   if (url.find('\0') != std::string::npos || (scheme != "http" && scheme != "https")) {
-    throw core::Error("is not an http or https address", "the LLM server's URL",
-                      "for example http://localhost:8080/v1");
+    throw core::Error("is not an http or https address", role.name, role.remedy);
   }
   return handle;
 }
@@ -122,7 +121,8 @@ long Milliseconds(double seconds) {
   return std::max(1L, static_cast<long>(seconds * 1e3));
 }
 
-void Configure(CURL* easy, const std::string& url, curl_slist* headers, const std::string& body,
+// `body`: null for a GET.
+void Configure(CURL* easy, const std::string& url, curl_slist* headers, const std::string* body,
                const HttpLimits& limits, Exchange* exchange) {
   curl_easy_setopt(easy, CURLOPT_URL, url.c_str());
 #if CURL_AT_LEAST_VERSION(7, 85, 0)
@@ -134,10 +134,14 @@ void Configure(CURL* easy, const std::string& url, curl_slist* headers, const st
   curl_easy_setopt(easy, CURLOPT_NOSIGNAL, 1L);
   curl_easy_setopt(easy, CURLOPT_USERAGENT, "simwright/" SIMWRIGHT_VERSION);
   curl_easy_setopt(easy, CURLOPT_HTTPHEADER, headers);
-  curl_easy_setopt(easy, CURLOPT_POSTFIELDS, body.data());
-  curl_easy_setopt(easy, CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(body.size()));
+  if (body != nullptr) {
+    curl_easy_setopt(easy, CURLOPT_POSTFIELDS, body->data());
+    curl_easy_setopt(easy, CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(body->size()));
+  }
   curl_easy_setopt(easy, CURLOPT_CONNECTTIMEOUT_MS, Milliseconds(limits.connect_timeout));
   curl_easy_setopt(easy, CURLOPT_TIMEOUT_MS, Milliseconds(limits.total_timeout));
+  // A body whose header states too many bytes is refused before the first of them.
+  curl_easy_setopt(easy, CURLOPT_MAXFILESIZE_LARGE, static_cast<curl_off_t>(limits.max_body_bytes));
   curl_easy_setopt(easy, CURLOPT_WRITEFUNCTION, OnBody);
   curl_easy_setopt(easy, CURLOPT_WRITEDATA, exchange);
   curl_easy_setopt(easy, CURLOPT_HEADERFUNCTION, OnHeader);
@@ -170,7 +174,7 @@ void Conclude(CURL* easy, CURLcode code, bool stalled, const HttpLimits& limits,
               const Exchange& exchange, HttpReply* reply) {
   curl_easy_getinfo(easy, CURLINFO_RESPONSE_CODE, &reply->status);
   reply->outcome = OutcomeOf(code);
-  if (exchange.too_large) {
+  if (exchange.too_large || code == CURLE_FILESIZE_EXCEEDED) {
     reply->outcome = HttpOutcome::kTooLarge;
     reply->fault = "the answer is larger than " + std::to_string(limits.max_body_bytes) + " bytes";
   } else if (stalled) {
@@ -191,29 +195,9 @@ void Conclude(CURL* easy, CURLcode code, bool stalled, const HttpLimits& limits,
   }
 }
 
-}  // namespace
-
-UrlParts SplitUrl(const std::string& url) {
-  const UrlHandle handle = ParseUrl(url);
-  UrlParts parts;
-  parts.scheme = Part(handle.get(), CURLUPART_SCHEME, 0);
-  parts.host = LowerCaseHeader(Part(handle.get(), CURLUPART_HOST, 0));
-  parts.port = Part(handle.get(), CURLUPART_PORT, CURLU_DEFAULT_PORT);
-  parts.path = Part(handle.get(), CURLUPART_PATH, 0);
-  parts.password = Part(handle.get(), CURLUPART_PASSWORD, CURLU_URLDECODE);
-  return parts;
-}
-
-std::string WithPath(const std::string& url, const std::string& path) {
-  const UrlHandle handle = ParseUrl(url);
-  curl_url_set(handle.get(), CURLUPART_PATH, path.c_str(), 0);
-  curl_url_set(handle.get(), CURLUPART_FRAGMENT, nullptr, 0);
-  return Part(handle.get(), CURLUPART_URL, 0);
-}
-
-HttpReply HttpPost(const std::string& url, const std::vector<std::string>& headers,
-                   const std::string& body, const HttpLimits& limits,
-                   const std::function<bool()>& cancelled) {
+HttpReply Request(const std::string& url, const std::vector<std::string>& headers,
+                  const std::string* body, const HttpLimits& limits,
+                  const std::function<bool()>& cancelled) {
   InitialiseOnce();
   HttpReply reply;
   Exchange exchange{&reply, limits.max_body_bytes, false, SteadyClock::now(), false};
@@ -240,6 +224,81 @@ HttpReply HttpPost(const std::string& url, const std::vector<std::string>& heade
   const CURLcode code = Transfer(multi.get(), limits, exchange, cancelled, &stalled);
   Conclude(easy.get(), code, stalled, limits, exchange, &reply);
   return reply;
+}
+
+}  // namespace
+
+UrlParts SplitUrl(const std::string& url, const UrlRole& role) {
+  const UrlHandle handle = ParseUrl(url, role);
+  UrlParts parts;
+  parts.scheme = Part(handle.get(), CURLUPART_SCHEME, 0);
+  parts.host = LowerCaseHeader(Part(handle.get(), CURLUPART_HOST, 0));
+  parts.port = Part(handle.get(), CURLUPART_PORT, CURLU_DEFAULT_PORT);
+  parts.path = Part(handle.get(), CURLUPART_PATH, 0);
+  parts.password = Part(handle.get(), CURLUPART_PASSWORD, CURLU_URLDECODE);
+  return parts;
+}
+
+std::string WithPath(const std::string& url, const std::string& path) {
+  const UrlHandle handle = ParseUrl(url);
+  curl_url_set(handle.get(), CURLUPART_PATH, path.c_str(), 0);
+  curl_url_set(handle.get(), CURLUPART_FRAGMENT, nullptr, 0);
+  return Part(handle.get(), CURLUPART_URL, 0);
+}
+
+std::string ResolvedUrl(const std::string& base, const std::string& reference) {
+  try {
+    const UrlHandle handle = ParseUrl(base);
+    if (curl_url_set(handle.get(), CURLUPART_URL, reference.c_str(), 0) != CURLUE_OK) return "";
+    const std::string url = Part(handle.get(), CURLUPART_URL, 0);
+    ParseUrl(url);  // throws for other schemes
+    return url;
+  } catch (const core::Error&) {
+    return "";
+  }
+}
+
+std::string OriginOf(const std::string& url) {
+  try {
+    const UrlParts parts = SplitUrl(url);
+    return parts.scheme + "://" + parts.host + ":" + parts.port;
+  } catch (const core::Error&) {
+    return "";
+  }
+}
+
+std::string ShownUrl(const std::string& url) {
+  try {
+    const UrlParts parts = SplitUrl(url);
+    const bool usual_port = parts.port == (parts.scheme == "https" ? "443" : "80");
+    return parts.scheme + "://" + parts.host + (usual_port ? "" : ":" + parts.port) + parts.path;
+  } catch (const core::Error&) {
+    return "not an http or https address";
+  }
+}
+
+bool IsLoopback(const std::string& host) {
+  return host == "localhost" || host.ends_with(".localhost") || host == "[::1]" ||
+         host.rfind("127.", 0) == 0;
+}
+
+HttpReply HttpPost(const std::string& url, const std::vector<std::string>& headers,
+                   const std::string& body, const HttpLimits& limits,
+                   const std::function<bool()>& cancelled) {
+  return Request(url, headers, &body, limits, cancelled);
+}
+
+HttpReply HttpGet(const std::string& url, const std::vector<std::string>& headers,
+                  const HttpLimits& limits, const std::function<bool()>& cancelled) {
+  return Request(url, headers, nullptr, limits, cancelled);
+}
+
+bool IsRedirect(long status) {
+  return status == 301 || status == 302 || status == 307 || status == 308;
+}
+
+bool WorthAnotherTry(long status) {
+  return status == 429 || (status >= 500 && status <= 599);
 }
 
 double ParseHttpDate(const std::string& text) {
