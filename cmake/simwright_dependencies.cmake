@@ -50,8 +50,8 @@ macro(simwright_require link)
   elseif("${link}" STREQUAL "nlohmann_json::nlohmann_json")
     find_package(nlohmann_json REQUIRED)
   elseif("${link}" MATCHES "^opencv_")
-    find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs saliency ximgproc
-                 calib3d aruco features2d)
+    find_package(OpenCV REQUIRED COMPONENTS core dnn imgproc imgcodecs saliency ximgproc calib3d
+                 aruco)
   elseif("${link}" STREQUAL "Ceres::ceres")
     find_package(Ceres REQUIRED)
   elseif("${link}" STREQUAL "CGAL::CGAL")

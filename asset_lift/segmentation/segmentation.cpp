@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "asset_lift/segmentation/background_model.h"
+#include "asset_lift/segmentation/network_foreground.h"
 #include "asset_lift/segmentation/outline_contrast.h"
 #include "core/error.h"
 
@@ -171,6 +172,22 @@ Matte FromMask(const core::Image& photo, const core::Image& mask,
   return MatteFrom(kept, "given mask");
 }
 
+cv::Mat WithoutOtherRegions(const cv::Mat& alpha, const cv::Mat& object) {
+  cv::Mat grown, kept;
+  cv::dilate(object, grown, cv::Mat::ones(5, 5, CV_8U));
+  alpha.copyTo(kept, grown);
+  return kept;
+}
+
+// The contrast of the outline is not checked: a network also recognises a white mug on a white
+// table.
+Matte FromNetwork(const core::Image& photo, const SegmentationOptions& options) {
+  const cv::Mat alpha = FindForegroundByNetwork(photo, options.network.get(), options);
+  const cv::Mat object = OneObject(alpha > 127, options);
+  RequireWellFormed(object);
+  return MatteFrom(WithoutOtherRegions(alpha, object), "the network " + options.network->name());
+}
+
 }  // namespace
 
 Matte SegmentObject(const core::Image& photo, const std::optional<core::Image>& mask,
@@ -182,15 +199,13 @@ Matte SegmentObject(const core::Image& photo, const std::optional<core::Image>& 
   }
   if (mask) return LargeEnough(FromMask(photo, *mask, options), options);
   if (HasCutOut(photo)) return LargeEnough(FromAlpha(photo, options), options);
+  if (options.network != nullptr) return LargeEnough(FromNetwork(photo, options), options);
   const cv::Mat alpha = FindForeground(photo, options);
   const cv::Mat object = OneObject(alpha > 127, options);
   RequireOutline(photo, object, options);
   RequireAlone(photo, alpha > 127, options);
   RequireWellFormed(object);
-  cv::Mat grown, kept;
-  cv::dilate(object, grown, cv::Mat::ones(5, 5, CV_8U));
-  alpha.copyTo(kept, grown);
-  return LargeEnough(MatteFrom(kept, "colour and contrast"), options);
+  return LargeEnough(MatteFrom(WithoutOtherRegions(alpha, object), "colour and contrast"), options);
 }
 
 }  // namespace simwright::asset_lift

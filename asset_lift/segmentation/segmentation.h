@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -7,10 +8,12 @@
 
 namespace simwright::asset_lift {
 
+class SalientNetwork;
+
 // The segmented object of a photo.
 struct Matte {
   core::Image alpha;   // 1 channel, as large as the photo; 255 inside the object
-  std::string method;  // "alpha channel", "given mask" or "colour and contrast"
+  std::string method;  // "alpha channel", "given mask", "the network FILE" or "colour and contrast"
   // The share of pixels in [0, 1] that the object covers, and its bounding box in pixels.
   double area = 0.0;
   int left = 0, top = 0, right = 0, bottom = 0;  // half-open
@@ -34,11 +37,14 @@ struct SegmentationOptions {
   // True if the object is known to be round: an ellipse supported by the photo's edges then
   // completes regions that shading hides.
   bool round_object = false;
+  // Finds the object in place of colours and saliency (salient_network.h); may be null.
+  std::shared_ptr<SalientNetwork> network;
   std::uint64_t seed = 1;
 };
 
 // Segments the single object of `photo`: by its alpha channel where it has one that is not opaque;
-// otherwise by `mask` (any image with the same aspect ratio, bright inside); otherwise by the
+// otherwise by `mask` (any image with the same aspect ratio, bright inside); otherwise by
+// `options.network`, with its outline refined by GrabCut and a guided filter; otherwise by the
 // colours along the border (a Gaussian mixture), fine-grained saliency, GrabCut (Rother et al.
 // 2004) and a guided filter. Throws core::Error with the reason where no single object stands out:
 // no opaque pixel, no distinct region, an outline without contrast (an empty table, clear glass),
