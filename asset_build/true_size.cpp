@@ -76,6 +76,29 @@ void ScaleToSize(const StatedSize& size, const std::string& where, core::Triangl
                        stretch, "--size with only the longest side keeps the proportions"});
 }
 
+double ScaleToSampledSize(const physics_params::PhysicalParameters& sampled,
+                          const core::TriangleMesh& mesh, const std::string& where) {
+  const double volume = GroundBoxOf(mesh).sides.prod();
+  if (!(volume > 0.0)) {
+    throw core::Error("the mesh is flat: it has no extent along a side", where,
+                      "give its true size with --size");
+  }
+  const double wanted = sampled.length.sample * sampled.width.sample * sampled.height.sample;
+  return std::cbrt(wanted / volume);
+}
+
+core::Finding SizeDrawn(const physics_params::Category& category, const Eigen::Vector3d& sides,
+                        const std::string& where) {
+  const bool unknown = category.name == "object";
+  return {"size-drawn",
+          unknown ? core::Severity::kWarning : core::Severity::kInfo,
+          where,
+          "its size was sampled from the usual range of '" + category.name +
+              "': " + physics_params::SizeText(sides),
+          sides.maxCoeff(),
+          "give the true size with --height or --size"};
+}
+
 void RequirePlausibleSize(const physics_params::Category& category, const Eigen::Vector3d& sides,
                           double unit, const std::string& where, double most) {
   const double factor = physics_params::SizeFactor(category, sides);

@@ -8,6 +8,7 @@
 #include "core/finding.h"
 #include "core/mesh.h"
 #include "physics_params/knowledge_base.h"
+#include "physics_params/physical_parameters.h"
 #include "physics_params/size_plausibility.h"
 
 namespace simwright::asset_build {
@@ -36,6 +37,17 @@ Eigen::Vector3d ScalesTo(const StatedSize& size, const Eigen::Vector3d& sides);
 // changes its proportions by more than 5 %. Throws core::Error if it has no extent along a side.
 void ScaleToSize(const StatedSize& size, const std::string& where, core::TriangleMesh* mesh,
                  core::Findings* findings);
+
+// Returns the factor by which the volume of the mesh's ground box becomes that of the sampled size,
+// for a mesh of arbitrary scale: the error of a wrong proportion is spread over all sides. Throws
+// core::Error if the mesh has no extent along a side.
+double ScaleToSampledSize(const physics_params::PhysicalParameters& sampled,
+                          const core::TriangleMesh& mesh, const std::string& where);
+
+// Returns the finding "size-drawn": the size (sides, m) was sampled, because a single photo does
+// not determine it. A warning if the category is "object".
+core::Finding SizeDrawn(const physics_params::Category& category, const Eigen::Vector3d& sides,
+                        const std::string& where);
 
 // Throws core::Error for an object whose sides (m) are implausible for its category
 // (physics_params::IsAbsurdSize), with its size, the usual size, and the unit that would make it

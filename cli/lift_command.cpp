@@ -3,6 +3,7 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "cli/generator_flags.h"
 #include "cli/number_validators.h"
 #include "cli/stated_options.h"
 #include "core/error.h"
@@ -19,6 +20,7 @@ struct LiftFlags {
   std::filesystem::path cameras;
   bool fast = false, outline = false, each = false;
   double ruler = 0.0;  // mm
+  GeneratorFlags generator;
   workflows::LiftRequest request;
 };
 
@@ -71,12 +73,14 @@ int Lift(LiftFlags flags, const CommonOptions& common) {
   LiftPrinter printer(common);
   flags.request.seed = common.seed;
   flags.request.force = common.force;
+  ApplyGenerator(flags.generator, &flags.request);
   if (!flags.mask.empty()) flags.request.mask = flags.mask;
   if (flags.fast) flags.request.effort = asset_lift::LiftEffort::kFast;
   if (flags.outline) flags.request.effort = asset_lift::LiftEffort::kOutline;
   if (!flags.cameras.empty()) {
     if (flags.photos.size() < 2) throw core::Error("--cameras needs several photos of one object");
     if (flags.request.mask) throw core::Error("--mask needs a single photo");
+    if (flags.request.segmenter) throw core::Error("--segmenter is not used with --cameras");
     const workflows::LiftRequest& one = flags.request;
     printer.Print(workflows::LiftToFolder(
         workflows::MultiLiftRequest{flags.photos, flags.cameras, one.category, one.height, one.size,
@@ -87,6 +91,9 @@ int Lift(LiftFlags flags, const CommonOptions& common) {
   }
   if (flags.photos.size() > 1 && flags.request.mask) {
     throw core::Error("--mask needs a single photo");
+  }
+  if (flags.photos.size() > 1 && !flags.request.keep_generated.empty()) {
+    throw core::Error("--keep-generated needs a single photo");
   }
   if (!flags.each && workflows::ShowMat(flags.photos)) {
     printer.Print(workflows::LiftToFolder(MatRequest(flags), &progress));
@@ -115,7 +122,10 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright lift coffee.png --mask coffee_mask.png --category 'coffee cup' -o cup\n"
       "  simwright lift front.jpg left.jpg back.jpg --cameras cams.json --category mug -o mug\n"
       "  simwright lift photos/*.jpg --category mug -o mug    (photos on a mat, see simwright "
-      "mat)");
+      "mat)\n"
+      "  simwright lift mug.jpg --category mug --generator http://localhost:8081/generate -o mug\n"
+      "  simwright lift mug.jpg --category mug --generator-command 'my_model {in} {out}' -o mug\n"
+      "  simwright lift mug.jpg --category mug --segmenter u2net.onnx -o mug");
   command
       ->add_option(
           "photos", flags->photos,
@@ -155,6 +165,7 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
                    "Field of view along the longer side, degrees")
       ->check(CLI::Range(1.0, 160.0))
       ->default_str("EXIF, else 35");
+  AddGenerator(command, &flags->generator, &flags->request);
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([flags, common, run] { *run = [=] { return Lift(*flags, *common); }; });

@@ -163,6 +163,18 @@ core::TexturedMesh RigidUrdfMesh(const fs::path& urdf, const assets::UrdfModel& 
   return importers::RigidVisual(model, findings);
 }
 
+// Scales a mesh of arbitrary scale to the size sampled for its category.
+void ScaleToCategory(const physics_params::Category& category, const ImportOptions& options,
+                     const fs::path& mesh_path, core::TriangleMesh* mesh,
+                     core::Findings* findings) {
+  const physics_params::PhysicalParameters sampled = physics_params::SampleParameters(
+      category, physics_params::KnowledgeBase::Shipped(), options.seed);
+  const double scale = asset_build::ScaleToSampledSize(sampled, *mesh, mesh_path.string());
+  core::Transform(Eigen::Affine3d(Eigen::Scaling(scale)), mesh);
+  findings->push_back(asset_build::SizeDrawn(category, asset_build::GroundBoxOf(*mesh).sides,
+                                             mesh_path.filename().string()));
+}
+
 // Reads the mesh of an item in world coordinates: metres, z up, at its stated size. Of `urdf`, if
 // given, returns all visuals with joints at zero.
 core::TexturedMesh ReadInWorld(const fs::path& mesh_path, const assets::UrdfModel* urdf,
@@ -191,6 +203,9 @@ core::TexturedMesh ReadInWorld(const fs::path& mesh_path, const assets::UrdfMode
     core::Transform(Eigen::Affine3d(Eigen::Scaling(options.height / height)), &mesh.mesh);
   }
   asset_build::ScaleToSize(options.size, mesh_path.string(), &mesh.mesh, findings);
+  if (options.sampled_size && !(options.height > 0.0) && options.size.empty()) {
+    ScaleToCategory(category, options, mesh_path, &mesh.mesh, findings);
+  }
   return mesh;
 }
 
@@ -252,6 +267,7 @@ class Importer {
     request.name = item.name;
     request.seed = options_.seed;
     core::Findings& findings = outcome->findings;
+    findings = options_.earlier;
     core::TexturedMesh visual;
     if (catalogue != nullptr) {
       const assets::CataloguePiece& piece = catalogue->pieces()[static_cast<size_t>(item.piece)];
@@ -259,7 +275,7 @@ class Importer {
       request.source = item.mesh.filename().string() + ":" + piece.id;
       request.category = importers::ImportCategory(options_.category, piece.name);
     } else {
-      request.source = item.mesh.filename().string();
+      request.source = options_.source.empty() ? item.mesh.filename().string() : options_.source;
       request.category = importers::ImportCategory(options_.category, MeantBy(item, source));
       visual = ReadInWorld(item.mesh, source != nullptr ? &source->model : nullptr,
                            *request.category.category, options_, &findings);
@@ -277,6 +293,7 @@ class Importer {
     Keep(item, outcome, [&](const fs::path& folder) {
       assets::WriteAsset(built.asset, folder);
       core::WritePng(folder / "preview.png", asset_build::AssetPreview(built.asset));
+      if (options_.add_files) options_.add_files(visual, folder);
     });
   }
 
@@ -308,7 +325,8 @@ class Importer {
   // Refuses an implausible size that is not stated, and any size that cannot be simulated.
   void RequireMeantSize(const physics_params::Category& category, const Eigen::Vector3d& sides,
                         const fs::path& mesh) const {
-    const bool stated = options_.unit_stated || options_.height > 0.0 || !options_.size.empty();
+    const bool stated = options_.unit_stated || options_.sampled_size || options_.height > 0.0 ||
+                        !options_.size.empty();
     if (!stated) {
       const double most = IsUrdf(mesh) ? asset_build::kAbsurdUrdf : physics_params::kAbsurdFactor;
       asset_build::RequirePlausibleSize(category, sides, options_.unit, mesh.string(), most);

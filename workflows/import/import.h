@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct ImportOptions {
   bool unit_stated = false;      // by the user: no resulting size is refused
   double height = 0.0;           // m, > 0: scales to this height (a URDF's with joints at zero)
   asset_build::StatedSize size;  // scales to this size instead
+  // A mesh of arbitrary scale, as generators make: it is scaled to the size sampled for its
+  // category unless `height` or `size` is set.
+  bool sampled_size = false;
   physics_params::StatedPhysics stated;
   std::uint64_t seed = 1;
   bool force = false;   // replaces existing outputs
@@ -29,6 +33,13 @@ struct ImportOptions {
   bool check = true;    // checks each asset and refuses one that fails
   std::string only;     // catalogues: imports pieces whose id or name contains this
   int limit = 0;        // catalogues: the maximum number of pieces; 0: all
+  // For a mesh that another step made: the source in asset.json (empty: the file's name), the
+  // findings of that step, which come first, and a function that adds files to the asset's folder
+  // (may be empty), given the mesh in metres with z up.
+  std::string source = {};
+  core::Findings earlier = {};
+  std::function<void(const core::TexturedMesh& mesh, const std::filesystem::path& folder)>
+      add_files = {};
 };
 
 // One object to import: a mesh file, a piece of a catalogue, or a URDF with joints.

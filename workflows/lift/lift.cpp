@@ -12,6 +12,8 @@
 #include "physics_params/size_plausibility.h"
 #include "render/forward.h"
 #include "workflows/lift/camera_file.h"
+#include "workflows/lift/cut_out.h"
+#include "workflows/lift/generated_lift.h"
 #include "workflows/lift/lift_finishing.h"
 #include "workflows/priors/prior_weights.h"
 
@@ -19,19 +21,6 @@ namespace simwright::workflows {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-core::Image CutOut(const asset_lift::LiftedMesh& lifted) {
-  core::Image cut(lifted.photo.width, lifted.photo.height, 4);
-  for (int y = 0; y < cut.height; ++y) {
-    for (int x = 0; x < cut.width; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        cut.At(x, y)[c] = lifted.photo.At(x, y)[lifted.photo.channels < 3 ? 0 : c];
-      }
-      cut.At(x, y)[3] = lifted.matte.alpha.At(x, y)[0];
-    }
-  }
-  return cut;
-}
 
 // Composes the photo, the matte, and the mesh from the photo's camera side by side.
 core::Image LiftSheet(const asset_lift::LiftedMesh& lifted, const core::Image& cut) {
@@ -47,15 +36,11 @@ core::Image LiftSheet(const asset_lift::LiftedMesh& lifted, const core::Image& c
 }
 
 // Returns the factor from the reconstruction's arbitrary scale to metres: by the requested height,
-// or else so that the volume of the bounding box equals the sampled one, which spreads the error of
-// a wrong proportion over all sides.
+// or else to the sampled size.
 double ScaleOf(double height, const physics_params::PhysicalParameters& parameters,
-               const core::TriangleMesh& mesh) {
-  const Eigen::Vector3d size = asset_build::GroundBoxOf(mesh).sides;
-  if (height > 0.0) return height / size.z();
-  const double wanted =
-      parameters.length.sample * parameters.width.sample * parameters.height.sample;
-  return std::cbrt(wanted / size.prod());
+               const core::TriangleMesh& mesh, const std::string& where) {
+  if (height > 0.0) return height / asset_build::GroundBoxOf(mesh).sides.z();
+  return asset_build::ScaleToSampledSize(parameters, mesh, where);
 }
 
 }  // namespace
@@ -82,19 +67,6 @@ namespace {
 // 5 % a side.
 constexpr double kPhotoVolumeError = 0.15;
 
-// Reports that the size was sampled, because a single photo does not determine it.
-core::Finding SizeDrawn(const physics_params::Category& category, const Eigen::Vector3d& sides,
-                        const std::string& photo) {
-  const bool unknown = category.name == "object";
-  return {"size-drawn",
-          unknown ? core::Severity::kWarning : core::Severity::kInfo,
-          photo,
-          "its size was sampled from the usual range of '" + category.name +
-              "': " + physics_params::SizeText(sides),
-          sides.maxCoeff(),
-          "give the true size with --height or --size"};
-}
-
 }  // namespace
 
 LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
@@ -104,19 +76,19 @@ LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
       physics_params::ChosenRow(finishing.category, finishing.stated.variant,
                                 physics_params::KnowledgeBase::Shipped()),
       physics_params::KnowledgeBase::Shipped(), finishing.seed);
-  const core::Image cut = CutOut(lifted);
+  const core::Image cut = CutOut(lifted.photo, lifted.matte.alpha);
   const core::Image sheet = LiftSheet(lifted, cut);
   double scale = finishing.metric && finishing.height <= 0.0
                      ? 1.0
-                     : ScaleOf(finishing.height, parameters, lifted.mesh.mesh);
+                     : ScaleOf(finishing.height, parameters, lifted.mesh.mesh, finishing.source);
   core::Transform(Eigen::Affine3d(Eigen::Scaling(scale)), &lifted.mesh.mesh);
   const double before = core::Bounds(lifted.mesh.mesh).volume();
   asset_build::ScaleToSize(finishing.size, finishing.source, &lifted.mesh.mesh, &lifted.findings);
   scale *= std::cbrt(core::Bounds(lifted.mesh.mesh).volume() / before);
   if (finishing.height <= 0.0 && finishing.size.empty() && !finishing.metric) {
-    lifted.findings.push_back(SizeDrawn(*finishing.category.category,
-                                        asset_build::GroundBoxOf(lifted.mesh.mesh).sides,
-                                        finishing.source));
+    lifted.findings.push_back(
+        asset_build::SizeDrawn(*finishing.category.category,
+                               asset_build::GroundBoxOf(lifted.mesh.mesh).sides, finishing.source));
   }
 
   asset_build::BuildRequest build;
@@ -151,6 +123,7 @@ double LiftSeconds(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
+  if (request.generator.given()) return LiftByGenerator(request, progress);
   core::StagedFolder staged(request.output, request.force);
   Finishing finishing{request.output,
                       request.photo.filename().string(),
@@ -169,6 +142,7 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
   if (request.elevation_degrees >= 0.0) options.elevation = request.elevation_degrees * kDegree;
   options.field_of_view = request.fov_degrees * kDegree;
   options.focal_35mm = core::ExifFocalLength35mm(bytes);
+  options.segmentation.network = request.segmenter;
   options.seed = request.seed;
   options.effort = request.effort;
   if (!request.prior.empty()) asset_lift::ConfigureForPublishedViewPrior(&options);
