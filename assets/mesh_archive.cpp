@@ -93,7 +93,11 @@ fs::path ExtractMeshArchive(const fs::path& archive, const fs::path& folder) {
     }
     total += stat.size;
     const fs::path file = folder / fs::path(name).lexically_normal();
-    fs::create_directories(file.parent_path());
+    std::error_code failed;
+    fs::create_directories(file.parent_path(), failed);
+    if (failed) {
+      throw core::Error("an entry of the zip is both a file and a folder: " + name, where);
+    }
     core::WriteFile(file, ReadEntry(zip.get(), index, stat.size, where));
     files.push_back(file);
   }

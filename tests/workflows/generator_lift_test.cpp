@@ -193,6 +193,44 @@ TEST_F(GeneratorLift, CtrlCEndsTheProgramWhileTheServerWorks) {
   EXPECT_FALSE(fs::exists(out()));
 }
 
+// The listing of docs/generator.md, with a model that answers with a box.
+TEST_F(GeneratorLift, TheServerOfTheDocumentationWorks) {
+  const std::string page = core::ReadFile(fs::path(SIMWRIGHT_SOURCE_DIR) / "docs/generator.md");
+  const std::size_t first = page.find("    import base64"), last = page.find("\n\nA test extracts");
+  ASSERT_NE(last, std::string::npos);
+  std::istringstream listing(page.substr(first, last - first));
+  // A port that was free a moment ago.
+  const std::string port = [] {
+    const std::string url = GeneratorServer(Answering("")).origin();
+    return url.substr(url.rfind(':') + 1);
+  }();
+  std::string program;
+  for (std::string line; std::getline(listing, line);) {
+    const std::size_t at = line.find("8081");
+    if (at != std::string::npos) line.replace(at, 4, port);
+    program += line.substr(std::min<std::size_t>(4, line.size())) + "\n";
+  }
+  const core::TemporaryFolder server;
+  core::WriteFile(server.path() / "server.py", program);
+  core::WriteFile(server.path() / "box.glb", BoxGlb(1.0f, 2.0f, 0.5f));
+  core::WriteFile(server.path() / "my_model.py",
+                  "def glb_of(png):\n    assert png[1:4] == b'PNG'\n"
+                  "    return open('" +
+                      (server.path() / "box.glb").string() + "', 'rb').read()\n");
+  const pid_t pid = fork();
+  if (pid == 0) {
+    execlp("python3", "python3", (server.path() / "server.py").c_str(), nullptr);
+    _exit(127);
+  }
+  // A connection that is refused until the server listens is retried.
+  const Outcome lift =
+      Lift("--category box --height 0.2 --generator http://127.0.0.1:" + port + "/generate");
+  kill(pid, SIGKILL);
+  waitpid(pid, nullptr, 0);
+  ASSERT_EQ(lift.code, 0) << lift.text;
+  EXPECT_NEAR(assets::ReadAsset(out()).volume, 0.1 * 0.05 * 0.2, 1e-8);
+}
+
 // An archive of these names and texts.
 std::string Zip(const fs::path& path, const std::vector<std::pair<std::string, std::string>>& all) {
   int code = 0;
@@ -224,8 +262,8 @@ TEST_F(GeneratorLift, AZipWithAnObjAndItsMaterialsIsUnpacked) {
   const assets::Asset asset = assets::ReadAsset(out());
   EXPECT_NEAR(asset.volume, 0.1 * 0.05 * 0.2, 1e-8);
   ASSERT_FALSE(asset.visual.materials.empty());
-  EXPECT_NEAR(asset.visual.materials[0].color[2], 1.0, 0.01);
-  EXPECT_NEAR(asset.visual.materials[0].color[0], 0.0, 0.01);
+  EXPECT_NEAR(asset.visual.materials[0].base_color[2], 1.0, 0.01);
+  EXPECT_NEAR(asset.visual.materials[0].base_color[0], 0.0, 0.01);
 }
 
 TEST_F(GeneratorLift, ZipsThatAreNoMeshAreRefused) {
@@ -252,6 +290,7 @@ TEST_F(GeneratorLift, ZipsThatAreNoMeshAreRefused) {
   expect("leads outside", refusal(Zip(path, {{"/a.obj", obj}})));
   expect("has no GLB, OBJ or PLY", refusal(Zip(path, {{"a.txt", obj}})));
   expect("several meshes", refusal(Zip(path, {{"a.obj", obj}, {"b.obj", obj}})));
+  expect("both a file and a folder", refusal(Zip(path, {{"a.obj", obj}, {"a.obj/b.obj", obj}})));
   expect("zip", refusal(good.substr(0, good.size() / 2)));
 }
 

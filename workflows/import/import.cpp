@@ -171,8 +171,9 @@ void ScaleToCategory(const physics_params::Category& category, const ImportOptio
       category, physics_params::KnowledgeBase::Shipped(), options.seed);
   const double scale = asset_build::ScaleToSampledSize(sampled, *mesh, mesh_path.string());
   core::Transform(Eigen::Affine3d(Eigen::Scaling(scale)), mesh);
-  findings->push_back(asset_build::SizeDrawn(category, asset_build::GroundBoxOf(*mesh).sides,
-                                             mesh_path.filename().string()));
+  const std::string place = options.source.empty() ? mesh_path.filename().string() : options.source;
+  findings->push_back(
+      asset_build::SizeDrawn(category, asset_build::GroundBoxOf(*mesh).sides, place));
 }
 
 // Reads the mesh of an item in world coordinates: metres, z up, at its stated size. Of `urdf`, if

@@ -61,7 +61,6 @@ core::Image GeneratedSheet(const CutOutPhoto& cut, const core::TexturedMesh& mes
   render::ForwardOptions options;
   options.samples_per_side = 2;
   options.shaded = true;
-  options.lit = false;
   return core::ContactSheet(
       {cut.photo, cut.square, render::RenderForward(scene, camera, options).color}, 3);
 }
