@@ -9,7 +9,8 @@ build=$root/build-sanitize
 cd "$root"
 cmake --preset sanitize > /dev/null
 cmake --build --preset sanitize --target fuzz_targets
-targets="image_fuzz mesh_fuzz urdf_fuzz catalogue_fuzz chat_fuzz physics_answer_fuzz reward_fuzz
+targets="archive_fuzz image_fuzz mesh_fuzz urdf_fuzz catalogue_fuzz chat_fuzz physics_answer_fuzz
+  reward_fuzz
   task_answer_fuzz robot_side_file_fuzz trajectory_fuzz"
 mkdir -p "$build/found"
 # Small files of each kind, made here so that no binary is kept.
@@ -34,12 +35,15 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > "$folder/cup.obj"
 if command -v python3 > /dev/null; then
   (cd "$folder" && python3 -m zipfile -c "$catalogue_seeds/cup.sh3f" \
     PluginFurnitureCatalog.properties cup.obj)
+  mkdir -p "$build/seeds/archive_fuzz"
+  (cd "$folder" && python3 -m zipfile -c "$build/seeds/archive_fuzz/cup.zip" cup.obj)
 fi
 rm -rf "$folder"
 mkdir -p "$build/seeds/reward_fuzz"
 cp "$root"/tests/reward/corpus/*.py "$build/seeds/reward_fuzz"
 # All at once: most of the time of some goes into files, that of others into decoding. An input has
-# a minute: ten targets share the cores, and planning where things of a URDF stand takes a second.
+# a minute: eleven targets share the cores, and planning where things of a URDF stand takes a
+# second.
 fuzz() {
   local target=$1 folder
   local seeds=()
