@@ -13,19 +13,19 @@ namespace {
 
 constexpr const char* kPhoto = "\x89PNG the bytes of a photo";
 
-GeneratedMesh Ask(const GeneratorOptions& options, llm::Clock* clock) {
+GeneratedMesh AskFor(const GeneratorOptions& options, llm::Clock* clock) {
   core::Progress silent;
   return AskGeneratorServer(kPhoto, options, &silent, *clock);
 }
-GeneratedMesh Ask(const GeneratorOptions& options) {
+GeneratedMesh AskFor(const GeneratorOptions& options) {
   llm::StillClock clock;
-  return Ask(options, &clock);
+  return AskFor(options, &clock);
 }
 
 // Returns the message of the failure, which has one line and not the key.
-std::string FailureOf(const GeneratorOptions& options, llm::Clock* clock) {
+std::string ServerFailure(const GeneratorOptions& options, llm::Clock* clock) {
   try {
-    Ask(options, clock);
+    AskFor(options, clock);
   } catch (const core::Error& error) {
     const std::string message = error.what();
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -34,13 +34,9 @@ std::string FailureOf(const GeneratorOptions& options, llm::Clock* clock) {
   }
   return "no failure";
 }
-std::string FailureOf(const GeneratorOptions& options) {
+std::string ServerFailure(const GeneratorOptions& options) {
   llm::StillClock clock;
-  return FailureOf(options, &clock);
-}
-
-void ExpectIn(const std::string& part, const std::string& text) {
-  EXPECT_NE(text.find(part), std::string::npos) << text;
+  return ServerFailure(options, &clock);
 }
 
 TEST(GeneratorClient, PostsJsonAsHunyuanExpectsAndTakesTheGlb) {
@@ -48,7 +44,7 @@ TEST(GeneratorClient, PostsJsonAsHunyuanExpectsAndTakesTheGlb) {
   GeneratorServer server(Answering(glb));
   GeneratorOptions options = GeneratorAt(server.url());
   options.parameters = {{"texture", "true"}, {"seed", "7"}, {"note", "a b"}};
-  const GeneratedMesh mesh = Ask(options);
+  const GeneratedMesh mesh = AskFor(options);
   EXPECT_EQ(mesh.bytes, glb);
   EXPECT_EQ(mesh.extension, ".glb");
   EXPECT_EQ(mesh.generator, server.url());
@@ -69,7 +65,7 @@ TEST(GeneratorClient, PostsMultipartAsStableFast3dExpects) {
   options.format = GeneratorFormat::kMultipart;
   options.field = "file";
   options.parameters = {{"texture_resolution", "1024"}};
-  EXPECT_EQ(Ask(options).extension, ".obj");
+  EXPECT_EQ(AskFor(options).extension, ".obj");
   const SeenRequest request = server.seen().at(0);
   ExpectIn("multipart/form-data; boundary=", request.content_type);
   const auto photo = request.files.find("file");
@@ -89,14 +85,14 @@ TEST(GeneratorClient, TriesMultipartWhereJsonIsRefused) {
         response.set_content(BoxGlb(1, 1, 1), "model/gltf-binary");
       }
     });
-    const GeneratedMesh mesh = Ask(GeneratorAt(server.url()));
+    const GeneratedMesh mesh = AskFor(GeneratorAt(server.url()));
     EXPECT_EQ(server.seen().size(), 2u);
     EXPECT_EQ(server.seen().at(1).files.count("image"), 1u);
     ASSERT_EQ(mesh.findings.size(), 1u);
     EXPECT_EQ(mesh.findings[0].code, "generator-format");
     GeneratorOptions json = GeneratorAt(server.url());
     json.format = GeneratorFormat::kJson;
-    ExpectIn("--generator-format", FailureOf(json));
+    ExpectIn("--generator-format", ServerFailure(json));
   }
 }
 
@@ -107,7 +103,7 @@ TEST(GeneratorClient, TakesBase64AnywhereInJson) {
         nlohmann::json{{"data", {"data:model/gltf-binary;base64," + base64}}},
         nlohmann::json{{"status", "completed"}, {"id", "x"}, {"mesh", base64}}}) {
     GeneratorServer server(Answering(answer.dump(), 200, "application/json"));
-    EXPECT_EQ(Ask(GeneratorAt(server.url())).bytes, glb) << answer.dump().substr(0, 80);
+    EXPECT_EQ(AskFor(GeneratorAt(server.url())).bytes, glb) << answer.dump().substr(0, 80);
   }
 }
 
@@ -120,7 +116,7 @@ TEST(GeneratorClient, PollsATaskAsHunyuanOffersIt) {
     r.set_content(answer.dump(), "application/json");
   });
   llm::StillClock clock;
-  EXPECT_EQ(Ask(GeneratorAt(server.origin() + "/send"), &clock).bytes, glb);
+  EXPECT_EQ(AskFor(GeneratorAt(server.origin() + "/send"), &clock).bytes, glb);
   ASSERT_EQ(server.seen().size(), 4u);
   EXPECT_EQ(server.seen()[3].method, "GET");
   EXPECT_EQ(server.seen()[3].path, "/status/0b-1f");
@@ -145,7 +141,7 @@ TEST(GeneratorClient, PollsTheAddressThatIsNamedOrGivenAndFetchesTheMesh) {
     });
     GeneratorOptions options = GeneratorAt(server.origin() + "/api/convert");
     if (!named) options.status_url = server.origin() + "/tasks/{id}";
-    EXPECT_EQ(Ask(options).bytes, glb);
+    EXPECT_EQ(AskFor(options).bytes, glb);
     EXPECT_EQ(server.seen().at(2).authorization, std::string("Bearer ") + kGeneratorKey);
   }
 }
@@ -155,16 +151,16 @@ TEST(GeneratorClient, TheKeyStaysWithItsServer) {
   GeneratorServer files(Answering(glb));
   GeneratorServer server(
       Answering(nlohmann::json{{"model_mesh", {{"url", files.origin() + "/a.glb"}}}}.dump(), 200));
-  EXPECT_EQ(Ask(GeneratorAt(server.url())).bytes, glb);
+  EXPECT_EQ(AskFor(GeneratorAt(server.url())).bytes, glb);
   EXPECT_EQ(files.seen().at(0).authorization, "");
   // A photo follows no redirect to another server.
   GeneratorServer moved([&](int, const httplib::Request&, httplib::Response& response) {
     response.set_redirect(files.origin() + "/generate", 307);
   });
-  ExpectIn("redirects to " + files.origin(), FailureOf(GeneratorAt(moved.url())));
+  ExpectIn("redirects to " + files.origin(), ServerFailure(GeneratorAt(moved.url())));
   EXPECT_EQ(files.seen().size(), 1u);
   GeneratorServer echo(Answering(std::string("bad key ") + kGeneratorKey, 401, "text/plain"));
-  const std::string message = FailureOf(GeneratorAt(echo.url()));
+  const std::string message = ServerFailure(GeneratorAt(echo.url()));
   ExpectIn("[redacted]", message);
   ExpectIn("SIMWRIGHT_GENERATOR_KEY", message);
 }
@@ -177,14 +173,14 @@ TEST(GeneratorClient, RetriesWhatMayPass) {
     if (number == 2) response.set_content(glb, "model/gltf-binary");
   });
   llm::StillClock clock;
-  EXPECT_EQ(Ask(GeneratorAt(server.url()), &clock).bytes, glb);
+  EXPECT_EQ(AskFor(GeneratorAt(server.url()), &clock).bytes, glb);
   ASSERT_EQ(clock.sleeps.size(), 2u);
   EXPECT_GE(clock.sleeps[0], 0.5);
   EXPECT_LE(clock.sleeps[0], 1.0);
   EXPECT_EQ(clock.sleeps[1], 7.0);
   GeneratorServer down(Answering("overloaded", 503, "text/plain"));
   llm::StillClock patient;
-  ExpectIn("status 503", FailureOf(GeneratorAt(down.url()), &patient));
+  ExpectIn("status 503", ServerFailure(GeneratorAt(down.url()), &patient));
   EXPECT_EQ(down.seen().size(), 5u);
   EXPECT_EQ(patient.sleeps.size(), 4u);
   // A Retry-After beyond the timeout is not waited for.
@@ -192,14 +188,14 @@ TEST(GeneratorClient, RetriesWhatMayPass) {
     response.status = 503;
     response.set_header("Retry-After", "5000");
   });
-  ExpectIn("--generator-timeout", FailureOf(GeneratorAt(late.url())));
+  ExpectIn("--generator-timeout", ServerFailure(GeneratorAt(late.url())));
 }
 
 TEST(GeneratorClient, ARefusedConnectionIsRetriedAndThenReported) {
   std::string url;
   { url = GeneratorServer(Answering("")).url(); }
   llm::StillClock clock;
-  const std::string message = FailureOf(GeneratorAt(url), &clock);
+  const std::string message = ServerFailure(GeneratorAt(url), &clock);
   ExpectIn(url, message);
   ExpectIn("5 times in a row", message);
   ExpectIn("is the server running", message);
@@ -217,11 +213,11 @@ TEST(GeneratorClient, ASlowServerEndsAtTheTimeout) {
   running = &server;
   GeneratorOptions options = GeneratorAt(server.url());
   options.timeout = 0.3;
-  ExpectIn("no mesh arrived within 0.3 s", FailureOf(options));
+  ExpectIn("no mesh arrived within 0.3 s", ServerFailure(options));
   // A task that never ends.
   GeneratorServer tasks(Answering(R"({"uid": "a", "status": "queued"})", 200));
   llm::StillClock clock;
-  ExpectIn("no mesh arrived within 100 s", FailureOf(GeneratorAt(tasks.url()), &clock));
+  ExpectIn("no mesh arrived within 100 s", ServerFailure(GeneratorAt(tasks.url()), &clock));
   EXPECT_EQ(clock.sleeps.size(), 49u);
 }
 
@@ -229,7 +225,7 @@ TEST(GeneratorClient, CtrlCEndsTheWait) {
   GeneratorServer tasks(Answering(R"({"uid": "a", "status": "queued"})", 200));
   llm::StillClock clock;
   clock.cancel_in_sleep = true;
-  EXPECT_THROW(Ask(GeneratorAt(tasks.url()), &clock), core::Cancelled);
+  EXPECT_THROW(AskFor(GeneratorAt(tasks.url()), &clock), core::Cancelled);
   EXPECT_EQ(tasks.seen().size(), 1u);
 }
 
@@ -245,7 +241,7 @@ TEST(GeneratorClient, StopsTheTransferOfALargeAnswer) {
                                     return sink.write(block.data(), count);
                                   });
   });
-  const std::string message = FailureOf(GeneratorAt(stated.url()));
+  const std::string message = ServerFailure(GeneratorAt(stated.url()));
   ExpectIn("larger than 512 MiB", message);
   EXPECT_LT(sent, 64u << 20);  // the header is enough
   sent = 0;
@@ -258,7 +254,7 @@ TEST(GeneratorClient, StopsTheTransferOfALargeAnswer) {
   });
   GeneratorOptions options = GeneratorAt(chunked.url());
   options.max_answer_bytes = 1 << 20;
-  ExpectIn("larger than 1 MiB", FailureOf(options));
+  ExpectIn("larger than 1 MiB", ServerFailure(options));
   EXPECT_LT(sent, 64u << 20);
   EXPECT_EQ(chunked.seen().size(), 1u);  // not retried
 }
@@ -266,7 +262,7 @@ TEST(GeneratorClient, StopsTheTransferOfALargeAnswer) {
 TEST(GeneratorClient, AnswersThatAreNoMeshAreNamed) {
   const auto failure = [](const std::string& body, int status = 200) {
     GeneratorServer server(Answering(body, status));
-    return FailureOf(GeneratorAt(server.url()));
+    return ServerFailure(GeneratorAt(server.url()));
   };
   ExpectIn("a web page (HTML)", failure("<!DOCTYPE html><html><title>Gradio</title></html>"));
   ExpectIn("its answer is empty", failure(""));

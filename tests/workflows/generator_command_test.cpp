@@ -15,7 +15,7 @@ namespace simwright::workflows {
 namespace {
 namespace fs = std::filesystem;
 
-std::vector<std::string> Split(const std::string& command) {
+std::vector<std::string> SplitGenerator(const std::string& command) {
   return GeneratorArguments(command, "/in dir/p.png", "/out/g.glb");
 }
 
@@ -39,16 +39,16 @@ class Script {
   core::TemporaryFolder folder_;
 };
 
-GeneratedMesh Run(
+GeneratedMesh RunGenerator(
     const GeneratorOptions& options,
     const std::function<bool()>& cancelled = [] { return false; }) {
   core::Progress silent;
   return RunGeneratorCommand("photo bytes", options, &silent, cancelled);
 }
 
-std::string FailureOf(const GeneratorOptions& options) {
+std::string CommandFailure(const GeneratorOptions& options) {
   try {
-    Run(options);
+    RunGenerator(options);
   } catch (const core::Error& error) {
     const std::string message = error.what();
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -57,20 +57,17 @@ std::string FailureOf(const GeneratorOptions& options) {
   return "no failure";
 }
 
-void ExpectIn(const std::string& part, const std::string& text) {
-  EXPECT_NE(text.find(part), std::string::npos) << text;
-}
-
 TEST(GeneratorCommand, SplitsArgumentsWithoutAShell) {
   using Words = std::vector<std::string>;
-  EXPECT_EQ(Split("prog {in} {out}"), (Words{"prog", "/in dir/p.png", "/out/g.glb"}));
-  EXPECT_EQ(Split("  a  'b c' \"d \\\" e\" f\\ g -i={in} '{out}'  "),
+  EXPECT_EQ(SplitGenerator("prog {in} {out}"), (Words{"prog", "/in dir/p.png", "/out/g.glb"}));
+  EXPECT_EQ(SplitGenerator("  a  'b c' \"d \\\" e\" f\\ g -i={in} '{out}'  "),
             (Words{"a", "b c", "d \" e", "f g", "-i=/in dir/p.png", "/out/g.glb"}));
-  EXPECT_EQ(Split("p '' $HOME;rm `x` {in} {out}"),
+  EXPECT_EQ(SplitGenerator("p '' $HOME;rm `x` {in} {out}"),
             (Words{"p", "", "$HOME;rm", "`x`", "/in dir/p.png", "/out/g.glb"}));
-  EXPECT_EQ(Split("p 'it'\\''s' {in}{out}"), (Words{"p", "it's", "/in dir/p.png/out/g.glb"}));
+  EXPECT_EQ(SplitGenerator("p 'it'\\''s' {in}{out}"),
+            (Words{"p", "it's", "/in dir/p.png/out/g.glb"}));
   for (const char* wrong : {"", "  ", "prog", "prog {in}", "prog {out}", "prog '{in} {out}"}) {
-    EXPECT_THROW(Split(wrong), core::Error) << wrong;
+    EXPECT_THROW(SplitGenerator(wrong), core::Error) << wrong;
   }
 }
 
@@ -80,7 +77,7 @@ TEST(GeneratorCommand, TakesTheMeshThatTheProgramWrites) {
   core::WriteFile(folder.path() / "box.glb", glb);
   const Script script("cp \"$1\" " + (folder.path() / "seen.png").string() + "\ncp " +
                       (folder.path() / "box.glb").string() + " \"$2\"\necho fine >&2\n");
-  const GeneratedMesh mesh = Run(script.Options());
+  const GeneratedMesh mesh = RunGenerator(script.Options());
   EXPECT_EQ(mesh.bytes, glb);
   EXPECT_EQ(mesh.extension, ".glb");
   EXPECT_EQ(mesh.generator, "my model.sh");
@@ -88,24 +85,24 @@ TEST(GeneratorCommand, TakesTheMeshThatTheProgramWrites) {
 }
 
 TEST(GeneratorCommand, ReportsFailuresWithTheEndOfStderr) {
-  const std::string failed = FailureOf(
+  const std::string failed = CommandFailure(
       Script("echo one >&2; echo two >&2; echo three >&2; echo CUDA out of memory >&2; exit 3\n")
           .Options());
   ExpectIn("my model.sh: the program ended with exit code 3", failed);
   ExpectIn("two | three | CUDA out of memory", failed);
   EXPECT_EQ(failed.find("one"), std::string::npos);
-  ExpectIn("wrote no file to {out}", FailureOf(Script("exit 0\n").Options()));
-  ExpectIn("wrote an empty file to {out}", FailureOf(Script("> \"$2\"\n").Options()));
-  ExpectIn("no mesh but \"hello\"", FailureOf(Script("echo hello > \"$2\"\n").Options()));
-  ExpectIn("ended by signal 9", FailureOf(Script("kill -9 $$\n").Options()));
+  ExpectIn("wrote no file to {out}", CommandFailure(Script("exit 0\n").Options()));
+  ExpectIn("wrote an empty file to {out}", CommandFailure(Script("> \"$2\"\n").Options()));
+  ExpectIn("no mesh but \"hello\"", CommandFailure(Script("echo hello > \"$2\"\n").Options()));
+  ExpectIn("ended by signal 9", CommandFailure(Script("kill -9 $$\n").Options()));
   GeneratorOptions missing;
   missing.command = "/no/such/program {in} {out}";
-  ExpectIn("/no/such/program: cannot be started", FailureOf(missing));
+  ExpectIn("/no/such/program: cannot be started", CommandFailure(missing));
   GeneratorOptions large = Script("").Options();
   const Script writes("head -c 2000000 /dev/zero > \"$2\"\n");
   large = writes.Options();
   large.max_answer_bytes = 1 << 20;
-  ExpectIn("larger than 1 MiB", FailureOf(large));
+  ExpectIn("larger than 1 MiB", CommandFailure(large));
 }
 
 // A megabyte of stderr neither blocks the program nor is kept.
@@ -113,7 +110,7 @@ TEST(GeneratorCommand, SurvivesMuchOutput) {
   const Script script(
       "i=0; while [ $i -lt 20000 ]; do echo 'a line of fifty characters, again "
       "and again and on' >&2; i=$((i+1)); done; echo last >&2; exit 1\n");
-  const std::string message = FailureOf(script.Options());
+  const std::string message = CommandFailure(script.Options());
   ExpectIn("| last", message);
   EXPECT_LT(message.size(), 700u);
 }
@@ -125,12 +122,12 @@ TEST(GeneratorCommand, StopsTheProgramAndItsChildrenAtTheTimeout) {
   GeneratorOptions options = script.Options();
   options.timeout = 0.5;
   const auto start = std::chrono::steady_clock::now();
-  const std::string message = FailureOf(options);
+  const std::string message = CommandFailure(options);
   ExpectIn("was stopped after 0.5 s", message);
   ExpectIn("begun", message);
   ExpectIn("--generator-timeout", message);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
-  EXPECT_THROW(Run(script.Options(), [] { return true; }), core::Cancelled);
+  EXPECT_THROW(RunGenerator(script.Options(), [] { return true; }), core::Cancelled);
 }
 
 }  // namespace

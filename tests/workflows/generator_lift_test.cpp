@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <set>
+#include <sstream>
 
 #include "assets/asset_folder.h"
 #include "assets/mesh_archive.h"
@@ -11,7 +13,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/image.h"
-#include "physics_params/knowledge_base.h"
+#include "physics_params/category_resolution.h"
 #include "program.h"
 #include "running_program.h"
 

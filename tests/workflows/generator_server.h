@@ -5,6 +5,7 @@
 #include "tests/llm/chat_server.h"
 #include "workflows/generator/generator_client.h"
 
+#include <gtest/gtest.h>
 #include <httplib.h>
 
 #include <atomic>
@@ -85,6 +86,11 @@ inline std::string BoxGlb(float x, float y, float z) {
   builder.root["meshes"] = {
       {{"primitives", {{{"attributes", {{"POSITION", vertices}}}, {"indices", indices}}}}}};
   return builder.Glb();
+}
+
+// Expects `part` in `text`.
+inline void ExpectIn(const std::string& part, const std::string& text) {
+  EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
 inline GeneratorOptions GeneratorAt(const std::string& url) {

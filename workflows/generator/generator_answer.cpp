@@ -192,7 +192,8 @@ std::string DescribeContent(std::string_view bytes) {
                                 bytes.begin() + std::min<long>(60, static_cast<long>(bytes.size())),
                                 [](unsigned char c) { return c >= 0x20 || std::isspace(c); });
   if (!text) return "of an unknown binary format";
-  return "no mesh but \"" + llm::Shortened(bytes.substr(first), 60) + "\"";
+  const std::size_t last = bytes.find_last_not_of(" \t\r\n");
+  return "no mesh but \"" + llm::Shortened(bytes.substr(first, last + 1 - first), 60) + "\"";
 }
 
 GeneratorAnswer ReadGeneratorAnswer(std::string body) {
