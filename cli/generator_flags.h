@@ -5,6 +5,7 @@
 
 #include "asset_lift/segmentation/salient_network.h"
 #include "cli/command.h"
+#include "workflows/generator/generator_options.h"
 #include "workflows/lift/lift.h"
 
 namespace simwright::cli {

@@ -121,8 +121,14 @@ class Walk {
   int values_ = 0;  // values that the last option still takes
 };
 
-// Returns the fault of a configuration key, which CLI11 names as "lift.categroy".
+// Returns the fault of a configuration key, which CLI11 names as "lift.categroy", or as "KEY: This
+// option is not allowed in a configuration file".
 std::string ConfigFault(const CLI::App& app, const std::string& message) {
+  const size_t refused = message.find(": This option is not allowed");
+  if (refused != std::string::npos) {
+    return "the key " + message.substr(0, refused) +
+           " is not allowed in a configuration file: give it on the command line";
+  }
   const size_t at = message.rfind(' ');
   std::string key = at == std::string::npos ? message : message.substr(at + 1);
   const CLI::App* section = &app;

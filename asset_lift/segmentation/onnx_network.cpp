@@ -57,7 +57,7 @@ class OnnxNetwork final : public SalientNetwork {
     try {
       const QuietOpenCv quiet;
       net_.setInput(blob);
-      // Of several outputs, the first is the final one: U2-Net's others are of coarser stages.
+      // The first of several outputs is the final one: U2-Net's others are of coarser stages.
       const std::vector<std::string> names = net_.getUnconnectedOutLayersNames();
       if (names.empty())
         throw core::Error("the network has no output", where(), kExpectedSignature);

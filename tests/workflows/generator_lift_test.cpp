@@ -263,9 +263,10 @@ TEST_F(GeneratorLift, AZipWithAnObjAndItsMaterialsIsUnpacked) {
   ASSERT_EQ(lift.code, 0) << lift.text;
   const assets::Asset asset = assets::ReadAsset(out());
   EXPECT_NEAR(asset.volume, 0.1 * 0.05 * 0.2, 1e-8);
-  ASSERT_FALSE(asset.visual.materials.empty());
-  EXPECT_NEAR(asset.visual.materials[0].base_color[2], 1.0, 0.01);
-  EXPECT_NEAR(asset.visual.materials[0].base_color[0], 0.0, 0.01);
+  ASSERT_FALSE(asset.visual.triangle_material.empty());
+  const int blue = asset.visual.triangle_material.front();
+  EXPECT_NEAR(asset.visual.materials.at(static_cast<size_t>(blue)).base_color[2], 1.0, 0.01);
+  EXPECT_NEAR(asset.visual.materials.at(static_cast<size_t>(blue)).base_color[0], 0.0, 0.01);
 }
 
 TEST_F(GeneratorLift, ZipsThatAreNoMeshAreRefused) {
