@@ -10,7 +10,6 @@
 #include "assets/asset_folder.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "core/finding_json.h"
 #include "core/image.h"
 #include "core/json.h"
 #include "tasks/task_file.h"
@@ -190,14 +189,7 @@ PhotoRunOutcome OutcomeOf(const PhotoRunFolder& folder, const core::JsonField& r
   outcome.page = folder.Page();
   outcome.picture = folder.Strip();
   outcome.trajectory = folder.Trajectory();
-  outcome.findings = assets::ReadAsset(folder.Asset()).findings;
-  // Exports of earlier versions have no findings.
-  const core::JsonDocument document =
-      core::JsonDocument::Read(folder.Export(), 1 << 26, "--force starts over");
-  if (document.root().Has("findings")) {
-    const core::Findings exported = core::FindingsFrom(document.root()["findings"]);
-    outcome.findings.insert(outcome.findings.end(), exported.begin(), exported.end());
-  }
+  outcome.findings = PhotoRunFindings(folder);
   return outcome;
 }
 

@@ -85,6 +85,19 @@ std::string Quoted(const std::string& text) {
 
 }  // namespace
 
+core::Findings PhotoRunFindings(const PhotoRunFolder& folder) {
+  core::Findings findings = assets::ReadAsset(folder.Asset()).findings;
+  if (!fs::exists(folder.Export())) return findings;  // the motion was refused
+  // Exports of earlier versions have no findings.
+  const core::JsonDocument document =
+      core::JsonDocument::Read(folder.Export(), 1 << 26, "--force starts over");
+  if (document.root().Has("findings")) {
+    const core::Findings exported = core::FindingsFrom(document.root()["findings"]);
+    findings.insert(findings.end(), exported.begin(), exported.end());
+  }
+  return findings;
+}
+
 core::OrderedJson PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder,
                                  const tasks::Task& task, const std::vector<RunStage>& stages,
                                  const std::string& refusal) {
@@ -97,7 +110,7 @@ core::OrderedJson PhotoRunReport(const PhotoRunRequest& request, const PhotoRunF
   report["asset"].update(Some(ReadJson(folder.Asset() / "asset.json"),
                               {"category", "size_m", "mass_kg", "material", "friction",
                                "restitution", "mass", "findings"}));
-  report["findings"] = core::FindingsJson(assets::ReadAsset(folder.Asset()).findings);
+  report["findings"] = core::FindingsJson(PhotoRunFindings(folder));
   report["check"] = Some(ReadJson(folder.Check()), {"passed", "rows"});
   report["scene"] = ReadJson(folder.Scene());
   report["task"] = TaskJson(task);

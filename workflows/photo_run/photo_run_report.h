@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/finding.h"
 #include "core/json.h"
 #include "tasks/task.h"
 #include "workflows/photo_run/photo_run.h"
@@ -17,6 +18,10 @@ namespace simwright::workflows {
 core::OrderedJson PhotoRunReport(const PhotoRunRequest& request, const PhotoRunFolder& folder,
                                  const tasks::Task& task, const std::vector<RunStage>& stages,
                                  const std::string& refusal);
+
+// Returns the findings of the asset and of the exported trajectory. Throws core::Error if a file is
+// missing or damaged.
+core::Findings PhotoRunFindings(const PhotoRunFolder& folder);
 
 // Returns the command that repeats the run, with only the options that differ from the defaults.
 std::string PhotoRunCommand(const PhotoRunRequest& request);
