@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace simwright::asset_lift {
 namespace {
@@ -55,7 +56,7 @@ MeshDescent::MeshDescent(const core::TriangleMesh& mesh, const std::vector<Eigen
       mesh_(mesh),
       colors_(colors),
       steps_(mesh, options.smoothing),
-      penalty_(mesh),
+      penalty_(mesh, options.crease_angle_deg * std::numbers::pi / 180.0),
       renderer_(Objects(mesh, colors), RenderOptions(options)),
       smooth_(steps_.Apply(VertexRows(mesh.vertices))),
       adam_(smooth_.rows()),

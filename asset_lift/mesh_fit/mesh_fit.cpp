@@ -243,6 +243,9 @@ bool MeshFitOptions::IsValid(std::string* error) const {
     return fail("edge ratios must be in (0, 1]");
   }
   if (!(feature_angle_deg > 0.0)) return fail("feature_angle_deg must be positive");
+  if (!(crease_angle_deg >= 0.0 && crease_angle_deg < 180.0)) {
+    return fail("crease_angle_deg must be in [0, 180)");
+  }
   if (max_side < 8) return fail("max_side must be at least 8");
   if (views_per_step < 1 || samples_per_side < 1 || edge_samples < 0) {
     return fail("views_per_step and samples_per_side must be at least 1");

@@ -1,10 +1,13 @@
 #include "asset_lift/mesh_fit/normal_penalty.h"
 
+#include <cmath>
+
 #include "geometry/weld.h"
 
 namespace simwright::asset_lift {
 
-NormalPenalty::NormalPenalty(const core::TriangleMesh& mesh) : triangles_(mesh.triangles) {
+NormalPenalty::NormalPenalty(const core::TriangleMesh& mesh, double crease_angle)
+    : crease_(1.0 - std::cos(crease_angle)), triangles_(mesh.triangles) {
   const std::vector<geometry::EdgeUse> uses = geometry::SortedEdgeUses(mesh);
   for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
     for (end = i; end < uses.size() && uses[end].key == uses[i].key;) ++end;
@@ -29,9 +32,16 @@ double NormalPenalty::Add(const std::vector<Eigen::Vector3d>& vertices, double w
   for (const auto& [f, g] : pairs_) {
     if (!(lengths[f] > 0.0) || !(lengths[g] > 0.0)) continue;
     const double cosine = normals[f].dot(normals[g]);
-    sum += share * (1.0 - cosine);
-    of_area[f] -= share * (normals[g] - cosine * normals[f]) / lengths[f];
-    of_area[g] -= share * (normals[f] - cosine * normals[g]) / lengths[g];
+    double slope = share;
+    if (crease_ > 0.0) {
+      const double kept = std::exp((cosine - 1.0) / crease_);
+      sum += share * crease_ * (1.0 - kept);
+      slope *= kept;
+    } else {
+      sum += share * (1.0 - cosine);
+    }
+    of_area[f] -= slope * (normals[g] - cosine * normals[f]) / lengths[f];
+    of_area[g] -= slope * (normals[f] - cosine * normals[g]) / lengths[g];
   }
   for (std::size_t f = 0; f < triangles_.size(); ++f) {
     const Eigen::Vector3i& t = triangles_[f];

@@ -27,6 +27,9 @@ struct MeshFitOptions {
   double depth_weight = 20.0;   // of squared depths in units of the diagonal
   double normal_weight = 0.01;  // of 1 - cosine across edges: smooths regions that no view
                                 // constrains
+  // From about this angle on, an edge is a crease that costs the same whatever its angle
+  // (normal_penalty.h), deg; 0: none.
+  double crease_angle_deg = 0.0;
   double objective_weight = 1.0;
 
   // The lambda of large steps. The paper's 19 with its steps of 0.3% leaves hollows less accurate:

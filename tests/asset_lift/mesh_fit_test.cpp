@@ -68,22 +68,60 @@ TEST(LargeSteps, AdamKeepsTheGradientsDirection) {
 
 TEST(NormalPenalty, DerivativeMatchesDifferences) {
   core::TriangleMesh mesh = BumpySphere();
-  const NormalPenalty penalty(mesh);
-  std::vector<Eigen::Vector3d> gradient(mesh.vertices.size(), Eigen::Vector3d::Zero()), unused;
-  penalty.Add(mesh.vertices, 2.0, &gradient);
-  for (const int v : {3, 100, 999}) {
-    for (int axis = 0; axis < 3; ++axis) {
-      constexpr double kStep = 1e-7;
-      const auto value = [&](double by) {
-        std::vector<Eigen::Vector3d> moved = mesh.vertices;
-        moved[v][axis] += by;
-        unused.assign(moved.size(), Eigen::Vector3d::Zero());
-        return 2.0 * penalty.Add(moved, 1.0, &unused);
-      };
-      const double difference = (value(kStep) - value(-kStep)) / (2.0 * kStep);
-      EXPECT_NEAR(gradient[v][axis], difference, 1e-3 * gradient[v].norm());
+  for (const double crease : {0.0, 0.15}) {
+    const NormalPenalty penalty(mesh, crease);
+    std::vector<Eigen::Vector3d> gradient(mesh.vertices.size(), Eigen::Vector3d::Zero()), unused;
+    penalty.Add(mesh.vertices, 2.0, &gradient);
+    for (const int v : {3, 100, 999}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        constexpr double kStep = 1e-7;
+        const auto value = [&](double by) {
+          std::vector<Eigen::Vector3d> moved = mesh.vertices;
+          moved[v][axis] += by;
+          unused.assign(moved.size(), Eigen::Vector3d::Zero());
+          return 2.0 * penalty.Add(moved, 1.0, &unused);
+        };
+        const double difference = (value(kStep) - value(-kStep)) / (2.0 * kStep);
+        EXPECT_NEAR(gradient[v][axis], difference, 1e-3 * gradient[v].norm());
+      }
     }
   }
+}
+
+// A square roof of slope 0.35 over a square box, whose faces are divided once. With creases the
+// flat top costs less than the roof, without them more.
+TEST(NormalPenalty, CreasesMakeFlatTopsCheaperThanRoofs) {
+  const auto box = [](double height) {
+    core::TriangleMesh mesh;
+    for (int i = 0; i < 8; ++i) {
+      mesh.vertices.emplace_back((i & 1) ? 1.0 : -1.0, (i >> 1 & 1) ? 1.0 : -1.0, (i >> 2) * 1.0);
+    }
+    mesh.vertices.emplace_back(0.0, 0.0, 1.0 + height);
+    for (const Eigen::Vector3i& t : {Eigen::Vector3i(0, 2, 1),
+                                     {1, 2, 3},
+                                     {0, 1, 4},
+                                     {1, 5, 4},
+                                     {2, 6, 3},
+                                     {3, 6, 7},
+                                     {0, 4, 2},
+                                     {2, 4, 6},
+                                     {1, 3, 5},
+                                     {3, 7, 5},
+                                     {4, 5, 8},
+                                     {5, 7, 8},
+                                     {7, 6, 8},
+                                     {6, 4, 8}}) {
+      mesh.triangles.push_back(t);
+    }
+    return mesh;
+  };
+  const auto cost = [&](double height, double crease) {
+    const core::TriangleMesh mesh = box(height);
+    std::vector<Eigen::Vector3d> unused(mesh.vertices.size(), Eigen::Vector3d::Zero());
+    return NormalPenalty(mesh, crease).Add(mesh.vertices, 1.0, &unused);
+  };
+  EXPECT_LT(cost(0.0, 0.2), cost(0.35, 0.2));
+  EXPECT_GT(cost(0.0, 0.0), cost(0.35, 0.0));
 }
 
 TEST(ViewLoss, TargetsAreAveragedDown) {
