@@ -22,7 +22,7 @@ for wanted in "$@"; do
   case $wanted in
     --tests)
       packages+=("${test_libraries[@]}" libbenchmark-dev libbullet-extras-dev
-        python3-torch python3-numpy python3-h5py python3-yaml)
+        python3-torch python3-numpy python3-h5py python3-yaml poppler-utils)
       ;;
     --catalogue) packages+=(sweethome3d-furniture python3-skimage) ;;
     --fuzz)

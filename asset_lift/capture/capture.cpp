@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "asset_lift/capture/coverage.h"
 #include "asset_lift/capture/mat_evidence.h"
 #include "asset_lift/capture/object_masks.h"
 #include "asset_lift/capture/voting_hull.h"
@@ -17,6 +18,8 @@ constexpr double kHeightOverPage = 1.3;   // the tallest object, in heights of t
 constexpr int kFirstCells = 72;           // of the first round's hull
 constexpr double kGuessTolerated = 0.65;  // ... and beside the mat
 constexpr double kFirstTolerated = 0.15;  // share of the views whose first masks may be wrong
+
+constexpr double kLeastAgreement = 0.75;  // IoU of a view's mask and the hull's silhouette
 
 class MatCapture {
  public:
@@ -33,6 +36,8 @@ class MatCapture {
     const Eigen::AlignedBox3d box = Around(core::Bounds(result_.hull));
     CutOut(box, options_.crop_side, result_.hull);
     result_.hull = Hull({Vote(options_.tolerated_views, false)}, box, options_.hull_cells);
+    LeaveOutContradictions();
+    AdviseMorePhotos();
     progress_->Finish();
     return std::move(result_);
   }
@@ -42,6 +47,9 @@ class MatCapture {
   Eigen::AlignedBox3d ObjectPlace() const;
   // Crops all photos to a box and segments them.
   void CutOut(const Eigen::AlignedBox3d& box, int side, const core::TriangleMesh& hull);
+  // Leaves out the views whose masks and hull disagree.
+  void LeaveOutContradictions();
+  void AdviseMorePhotos();
   HullVote Vote(double tolerated, bool open_beside_mat) const;
   core::TriangleMesh Hull(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
                           int cells) const;
@@ -147,6 +155,60 @@ core::TriangleMesh MatCapture::Hull(const std::vector<HullVote>& votes,
                       "leave the object where it stands and move around it");
   }
   return hull;
+}
+
+// Returns the intersection of two masks over their union.
+double MaskIou(const core::FloatImage& a, const core::FloatImage& b) {
+  double both = 0.0, either = 0.0;
+  for (std::size_t i = 0; i < a.values.size(); ++i) {
+    const bool in_a = a.values[i] >= 0.5f, in_b = b.values[i] >= 0.5f;
+    both += in_a && in_b;
+    either += in_a || in_b;
+  }
+  return either > 0.0 ? both / either : 1.0;
+}
+
+void MatCapture::LeaveOutContradictions() {
+  progress_->Stage("agreement of the views");
+  std::vector<double> agreement(result_.views.size());
+  core::ParallelFor(static_cast<int>(agreement.size()), [&](int i) {
+    const CaptureView& view = result_.views[static_cast<std::size_t>(i)];
+    agreement[static_cast<std::size_t>(i)] =
+        MaskIou(view.opacity, SilhouetteOf(result_.hull, view.camera));
+  });
+  std::vector<CaptureView> kept;
+  std::vector<MatCalibration::View> poses;
+  for (std::size_t i = 0; i < agreement.size(); ++i) {
+    if (agreement[i] >= kLeastAgreement) {
+      kept.push_back(std::move(result_.views[i]));
+      poses.push_back(result_.calibration.views[i]);
+      continue;
+    }
+    result_.findings.push_back(
+        {"view-contradicts", core::Severity::kWarning,
+         source_.photos[static_cast<std::size_t>(result_.views[i].index)].name,
+         "the outline of the object contradicts the other photos: the photo is left out",
+         agreement[i], "look at capture.html; the object must not move between photos"});
+  }
+  if (static_cast<int>(kept.size()) < kMinCalibrationPhotos || 2 * kept.size() < agreement.size()) {
+    throw core::Error("the outlines of the object agree in " + std::to_string(kept.size()) +
+                          " of " + std::to_string(agreement.size()) + " photos only",
+                      "capture",
+                      "leave one object where it stands, move around it, and choose a background "
+                      "of other colours");
+  }
+  result_.views = std::move(kept);
+  result_.calibration.views = std::move(poses);
+}
+
+void MatCapture::AdviseMorePhotos() {
+  const Eigen::Vector3d object = core::Bounds(result_.hull).center();
+  std::vector<ViewDirection> directions;
+  for (const CaptureView& view : result_.views) {
+    directions.push_back(DirectionTo(object, view.camera.position()));
+  }
+  const core::Findings missing = MissingViews(directions);
+  result_.findings.insert(result_.findings.end(), missing.begin(), missing.end());
 }
 
 }  // namespace

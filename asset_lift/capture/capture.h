@@ -47,14 +47,15 @@ struct Capture {
   std::vector<CaptureView> views;
   core::TriangleMesh hull;  // mat frame, m: the object stands on z = 0
   PaperSize paper = PaperSize::kA4;
-  MatCalibration calibration;  // of the photos that show the mat
-  core::Findings findings;     // the photos that were left out, and why
+  MatCalibration calibration;  // its views are those of `views`
+  core::Findings findings;  // the photos that were left out, and why; what would improve the shape
 };
 
 // Finds the cameras of photos of an object on a mat, and segments the object by all views together:
 // the mat's pattern gives first masks, their hull limits the second ones. Photos that show no mat
 // are left out with a finding, and those whose mask contradicts the others'. Throws core::Error if
-// fewer than four photos show the mat, or nothing stands on it; core::Cancelled.
+// fewer than four photos show the mat, nothing stands on it, or the masks agree in less than half
+// of the photos; core::Cancelled.
 Capture CaptureOnMat(const CaptureSource& source, const CaptureOptions& options,
                      core::Progress* progress);
 

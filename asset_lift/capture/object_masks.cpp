@@ -12,6 +12,7 @@ namespace simwright::asset_lift {
 namespace {
 
 constexpr int kIterations = 4;
+constexpr int kSeed = 1;
 constexpr float kSureMat = 1.5f;        // deviations under which a recognised pixel is the mat
 constexpr float kLikelyMat = 2.5f;      // under which a pixel may be
 constexpr float kSureObject = 6.0f;     // from which a pixel is no mat, where ...
@@ -103,6 +104,7 @@ core::FloatImage SegmentOnMat(const core::Image& photo, const MatEvidence& evide
     cv::Mat rgb = source;
     if (photo.channels == 4) cv::cvtColor(source, rgb, cv::COLOR_RGBA2RGB);
     cv::Mat background, object;
+    cv::setRNGSeed(kSeed);  // of this thread: the same photo gives the same mask
     cv::grabCut(rgb, labels, {}, background, object, kIterations, cv::GC_INIT_WITH_MASK);
     for (int y = 0; y < photo.height; ++y) {
       for (int x = 0; x < photo.width; ++x) {

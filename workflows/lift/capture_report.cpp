@@ -100,18 +100,14 @@ void WriteCaptureReport(const asset_lift::CaptureSource& source, const asset_lif
                 capture.calibration.views[i].error, directions.back(), (eye - object).norm());
     pictures.push_back(MaskedPhoto(view));
   }
-  core::Findings findings = capture.findings;
-  for (const core::Finding& missing : asset_lift::MissingViews(directions)) {
-    findings.push_back(missing);
-  }
-  for (const core::Finding& finding : findings) {
+  for (const core::Finding& finding : capture.findings) {
     advice +=
         "<li>" +
         core::EscapedMarkup((finding.place.empty() ? "" : finding.place + ": ") + finding.sentence +
                             (finding.remedy.empty() ? "" : ". Remedy: " + finding.remedy)) +
         "</li>\n";
   }
-  if (findings.empty()) advice = "<li>Nothing: the photos cover the object.</li>";
+  if (capture.findings.empty()) advice = "<li>Nothing: the photos cover the object.</li>";
   core::WritePng(folder / "capture.png", core::ContactSheet(pictures, 4));
   core::WriteFile(folder / "capture.json", core::JsonText(CaptureJson(source, capture)));
   const std::string body = core::FillTemplate(
