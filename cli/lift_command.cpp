@@ -54,15 +54,31 @@ void LiftPrinter::Print(const workflows::LiftOutcome& outcome) {
               (outcome.folder / "preview.png").c_str());
 }
 
+// Photos on a mat take another road than a single photo: an option that only steers the latter is
+// refused instead of ignored.
+void RequireNoneUnused(const LiftFlags& flags) {
+  const workflows::LiftRequest& one = flags.request;
+  const std::pair<bool, const char*> unused[] = {{one.height > 0.0, "--height"},
+                                                 {flags.fast, "--fast"},
+                                                 {flags.outline, "--outline"},
+                                                 {!one.prior.empty(), "--prior"},
+                                                 {one.elevation_degrees >= 0.0, "--elevation"},
+                                                 {one.fov_degrees > 0.0, "--fov"},
+                                                 {one.segmenter != nullptr, "--segmenter"},
+                                                 {one.generator.given(), "--generator"}};
+  for (const auto& [given, option] : unused) {
+    if (!given) continue;
+    throw core::Error(std::string(option) + " is not used with photos on a mat", "",
+                      "leave it out, or use --each if each photo shows another object");
+  }
+}
+
 workflows::MatLiftRequest MatRequest(const LiftFlags& flags) {
   const workflows::LiftRequest& one = flags.request;
   workflows::MatLiftRequest request{flags.photos, one.category, 0.1,        one.size,
                                     one.stated,   one.seed,     one.output, one.force};
   if (flags.ruler > 0.0) request.ruler = 0.001 * flags.ruler;
-  if (one.height > 0.0) {
-    throw core::Error("--height is not used with a mat, which gives the size", "",
-                      "leave it out, or state all sides with --size");
-  }
+  RequireNoneUnused(flags);
   return request;
 }
 

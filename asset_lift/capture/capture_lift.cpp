@@ -7,7 +7,7 @@
 #include "asset_lift/mesh_fit/shape_fit.h"
 #include "asset_lift/outline/inflation.h"
 #include "asset_lift/priors/initial_shape.h"
-#include "geometry/weld.h"
+#include "core/error.h"
 #include "texture/photo_projection.h"
 
 namespace simwright::asset_lift {
@@ -62,6 +62,7 @@ LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options
     views.push_back(CropView(view.photo, mattes.back().alpha,
                              FrameAround(mattes.back(), view.camera, 1.0), options.fit_side));
   }
+  if (views.empty()) throw core::Error("no view has a mask", "capture");
   ShapeFitOptions stages = options.fit;
   stages.field.seed = stages.mesh.seed = options.seed;
   stages.mesh.max_side = options.fit_side;
@@ -77,6 +78,9 @@ LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options
   lifted.matte = mattes[0];
   lifted.start = "the visual hull of " + std::to_string(views.size()) + " photos";
   lifted.silhouette_iou = SilhouetteIou(fit.mesh, lifted.camera, lifted.matte);
+  lifted.findings.push_back({"shape", core::Severity::kInfo, "",
+                             "the shape began as " + lifted.start + " on a mat",
+                             lifted.silhouette_iou});
   progress->Finish();
   return lifted;
 }

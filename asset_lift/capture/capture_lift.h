@@ -9,16 +9,17 @@ namespace simwright::asset_lift {
 
 struct CaptureLiftOptions {
   ShapeFitOptions fit;
-  int fit_side = 320;  // pixels of the longer side of the views that the mesh is fitted to
-  int texture_size = 2048;
+  int fit_side = 320;       // pixels of the longer side of the views that the mesh is fitted to
+  int texture_size = 2048;  // pixels per side
   std::uint64_t seed = 1;
 
   CaptureLiftOptions();
 };
 
-// Reconstructs the captured object: its hull is fitted to masks and colours, kept on the mat's
-// plane, closed flat below, and textured from all photos. In the mat's frame, m; its camera and
-// photo are the first view's. Throws the exceptions of FitShape; core::Cancelled.
+// Reconstructs the captured object: its hull, which stands flat on the mat, is fitted to masks and
+// colours and textured from all photos; surfaces that no photo shows take the fitted colours. In
+// the mat's frame, m; its camera and photo are the first view's. Throws core::Error for a capture
+// without a masked view, and the exceptions of FitShape; core::Cancelled.
 LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options,
                        core::Progress* progress);
 

@@ -17,7 +17,8 @@ constexpr int kSubPixels = 3;              // per side, of the mat's albedo in a
 constexpr float kRecognised = 0.85f;       // correlation from which a window shows the mat
 constexpr float kLeastVariance = 0.01f;    // of the albedo in a window with a pattern
 constexpr float kNoise = 6.0f;             // standard deviation of a pixel's value, of 255
-constexpr float kUsualShadow = 0.6f;       // share of the light that a soft shadow leaves ...
+constexpr float kEdgeShare = 0.4f;    // of the change across an edge, which a camera's error shows
+constexpr float kUsualShadow = 0.6f;  // share of the light that a soft shadow leaves ...
 constexpr float kDarkestShadow = 0.3f;     // ... and one under an overhang
 constexpr float kShadowDeviation = 0.15f;  // of shadows darker than usual
 
@@ -175,7 +176,7 @@ MatEvidence CompareWithMat(const core::Image& photo, const core::Camera& camera,
   }
   const cv::Mat dark = Spread(color, is_dark, square),
                 light_color = Spread(color, is_light, square);
-  // Where the albedo changes between neighbours, half a pixel's error shows.
+  // The albedo's change between neighbouring pixels: a camera half a pixel off shows that much.
   cv::Mat highest, lowest;
   cv::dilate(albedo, highest, {});
   cv::erode(albedo, lowest, {});
@@ -186,7 +187,8 @@ MatEvidence CompareWithMat(const core::Image& photo, const core::Camera& camera,
       *evidence.pattern.At(x, y) = pattern.at<float>(y, x);
       const float a = albedo.at<float>(y, x);
       if (a < 0.0f) continue;
-      const float edge = 0.4f * (highest.at<float>(y, x) - std::max(0.0f, lowest.at<float>(y, x)));
+      const float edge =
+          kEdgeShare * (highest.at<float>(y, x) - std::max(0.0f, lowest.at<float>(y, x)));
       *evidence.difference.At(x, y) =
           DifferenceAt(color.at<cv::Vec3f>(y, x), dark.at<cv::Vec3f>(y, x),
                        light_color.at<cv::Vec3f>(y, x), a, edge);

@@ -17,33 +17,6 @@ namespace {
 
 constexpr double kOneDegree = std::numbers::pi / 180.0;
 
-core::TexturedMesh Block(const Eigen::Vector3d& sides) {
-  core::TexturedMesh block;
-  for (int i = 0; i < 8; ++i) {
-    block.mesh.vertices.emplace_back(sides.x() * ((i & 1) - 0.5), sides.y() * ((i >> 1 & 1) - 0.5),
-                                     sides.z() * (i >> 2));
-  }
-  for (const Eigen::Vector3i& t : {Eigen::Vector3i(0, 2, 1),
-                                   {1, 2, 3},
-                                   {4, 5, 6},
-                                   {5, 7, 6},
-                                   {0, 1, 4},
-                                   {1, 5, 4},
-                                   {2, 6, 3},
-                                   {3, 6, 7},
-                                   {0, 4, 2},
-                                   {2, 4, 6},
-                                   {1, 3, 5},
-                                   {3, 7, 5}}) {
-    block.mesh.triangles.push_back(t);
-  }
-  core::Material red;
-  red.base_color = {0.8f, 0.25f, 0.2f, 1.0f};
-  block.materials.push_back(red);
-  block.triangle_material.assign(12, 0);
-  return block;
-}
-
 // OpenCV draws its board itself: an independent picture of the same mat.
 TEST(CaptureMat, LooksAsOpenCvDrawsIt) {
   for (const CaptureMat& mat : CaptureMats()) {
@@ -96,7 +69,8 @@ TEST(MatCalibration, FindsTheCamerasOfPhotosWithDistortion) {
   options.samples_per_side = 1;
   const auto poses =
       OrbitPoses(9, {30 * kOneDegree, 50 * kOneDegree, 70 * kOneDegree}, 0.13, options.lens, 3);
-  const auto photos = RenderMatPhotos(Block({0.05, 0.07, 0.09}), poses, options);
+  const auto photos =
+      RenderMatPhotos(PlainBox({0.05, 0.07, 0.09}, {0.8f, 0.25f, 0.2f}), poses, options);
   MatCalibrationInput input;
   for (const MatPhoto& photo : photos) {
     const auto mat = DetectMat(photo.photo);

@@ -133,6 +133,33 @@ core::Image Distort(const core::Image& straight, const core::Camera& camera, con
 
 }  // namespace
 
+core::TexturedMesh PlainBox(const Eigen::Vector3d& sides, const Eigen::Vector3f& color) {
+  core::TexturedMesh box;
+  for (int i = 0; i < 8; ++i) {
+    box.mesh.vertices.emplace_back(sides.x() * ((i & 1) - 0.5), sides.y() * ((i >> 1 & 1) - 0.5),
+                                   sides.z() * (i >> 2));
+  }
+  for (const Eigen::Vector3i& t : {Eigen::Vector3i(0, 2, 1),
+                                   {1, 2, 3},
+                                   {4, 5, 6},
+                                   {5, 7, 6},
+                                   {0, 1, 4},
+                                   {1, 5, 4},
+                                   {2, 6, 3},
+                                   {3, 6, 7},
+                                   {0, 4, 2},
+                                   {2, 4, 6},
+                                   {1, 3, 5},
+                                   {3, 7, 5}}) {
+    box.mesh.triangles.push_back(t);
+  }
+  core::Material paint;
+  paint.base_color << color, 1.0f;
+  box.materials.push_back(paint);
+  box.triangle_material.assign(12, 0);
+  return box;
+}
+
 Lens PhoneLens(int width, int height, double longer_fov) {
   Lens lens;
   lens.width = width;

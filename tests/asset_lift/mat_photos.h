@@ -27,6 +27,9 @@ struct MatPhoto {
   Eigen::Isometry3d world_from_camera;  // the truth
 };
 
+// Returns a box of one colour (sRGB) that stands on z = 0 around the z axis. `sides`: m.
+core::TexturedMesh PlainBox(const Eigen::Vector3d& sides, const Eigen::Vector3f& color);
+
 // Returns a lens of `width` x `height` pixels, `longer_fov` (rad) over the longer side, with the
 // barrel distortion and the off-centre principal point of a phone.
 Lens PhoneLens(int width, int height, double longer_fov);

@@ -55,7 +55,7 @@ class GeneratorLift : public testing::Test {
       EXPECT_EQ(entry.path().filename(), "disc.png");
     }
   }
-  fs::path out() const { return folder_.path() / "thing"; }
+  fs::path out() const { return folder_.path() / "asset"; }
 
   core::TemporaryFolder folder_;
 };

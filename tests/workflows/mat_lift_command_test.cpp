@@ -21,33 +21,6 @@ namespace fs = std::filesystem;
 constexpr double kRad = std::numbers::pi / 180.0;
 const Eigen::Vector3d kSides(0.06, 0.045, 0.09);  // m
 
-core::TexturedMesh Carton() {
-  core::TexturedMesh box;
-  for (int i = 0; i < 8; ++i) {
-    box.mesh.vertices.emplace_back(kSides.x() * ((i & 1) - 0.5), kSides.y() * ((i >> 1 & 1) - 0.5),
-                                   kSides.z() * (i >> 2));
-  }
-  for (const Eigen::Vector3i& t : {Eigen::Vector3i(0, 2, 1),
-                                   {1, 2, 3},
-                                   {4, 5, 6},
-                                   {5, 7, 6},
-                                   {0, 1, 4},
-                                   {1, 5, 4},
-                                   {2, 6, 3},
-                                   {3, 6, 7},
-                                   {0, 4, 2},
-                                   {2, 4, 6},
-                                   {1, 3, 5},
-                                   {3, 7, 5}}) {
-    box.mesh.triangles.push_back(t);
-  }
-  core::Material paint;
-  paint.base_color = {0.85f, 0.6f, 0.2f, 1.0f};
-  box.materials.push_back(paint);
-  box.triangle_material.assign(12, 0);
-  return box;
-}
-
 class MatLift : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -55,7 +28,8 @@ class MatLift : public ::testing::Test {
     asset_lift::MatPhotoOptions options;
     options.lens = asset_lift::PhoneLens(1000, 750, 65 * kRad);
     poses_ = asset_lift::OrbitPoses(12, {18 * kRad, 40 * kRad, 62 * kRad}, 0.13, options.lens, 5);
-    const auto photos = asset_lift::RenderMatPhotos(Carton(), poses_, options);
+    const auto photos = asset_lift::RenderMatPhotos(
+        asset_lift::PlainBox(kSides, {0.85f, 0.6f, 0.2f}), poses_, options);
     for (std::size_t i = 0; i < photos.size(); ++i) {
       core::WriteFile(Photo(i), core::EncodeJpeg(photos[i].photo, 97));
     }
