@@ -61,6 +61,11 @@ LiftOutcome LiftToFolder(const MatLiftRequest& request, core::Progress* progress
   asset_lift::CaptureLiftOptions fit;
   fit.seed = request.seed;
   asset_lift::LiftedMesh lifted = asset_lift::LiftCapture(capture, fit, progress);
+  if (PriorOf(*finishing.category.category).open) {
+    lifted.findings.push_back({"hollow-uncertain", core::Severity::kWarning, request.category,
+                               "outlines do not show how deep its hollow is: it may be too shallow",
+                               0.0, "look at preview.png"});
+  }
   WriteCaptureReport(source, capture, staged.staging());
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
