@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "asset_lift/capture/capture_mat.h"
+#include "capture/capture_mat.h"
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/usage.h"
@@ -14,15 +14,15 @@ namespace {
 
 struct MatFlags {
   std::filesystem::path output;
-  asset_lift::PaperSize paper = asset_lift::PaperSize::kA4;
+  capture::PaperSize paper = capture::PaperSize::kA4;
 };
 
 int Mat(const MatFlags& flags, const CommonOptions& common) {
   if (std::filesystem::exists(flags.output) && !common.force) {
     throw core::Error("exists already", flags.output.string(), "use --force or another name");
   }
-  const asset_lift::CaptureMat& mat = asset_lift::CaptureMatOf(flags.paper);
-  core::WriteFile(flags.output, asset_lift::MatPdf(mat));
+  const capture::CaptureMat& mat = capture::CaptureMatOf(flags.paper);
+  core::WriteFile(flags.output, capture::MatPdf(mat));
   if (common.json) {
     const core::OrderedJson json = {{"file", flags.output.string()},
                                     {"paper", mat.name},
@@ -50,9 +50,9 @@ void AddMat(CLI::App* app, CommonOptions* common, Run* run) {
   command->footer("Example:\n  simwright mat -o mat.pdf\n  simwright mat --size A3 -o mat_a3.pdf");
   command->add_option("-o,--output", flags->output, "The PDF file")->required();
   std::vector<std::string> names;
-  for (const asset_lift::CaptureMat& mat : asset_lift::CaptureMats()) names.push_back(mat.name);
+  for (const capture::CaptureMat& mat : capture::CaptureMats()) names.push_back(mat.name);
   AddChoice(command, "--size", names, "A4", "The paper", [flags](const std::string& name) {
-    for (const asset_lift::CaptureMat& mat : asset_lift::CaptureMats()) {
+    for (const capture::CaptureMat& mat : capture::CaptureMats()) {
       if (mat.name == name) flags->paper = mat.paper;
     }
   });

@@ -17,7 +17,7 @@ const std::vector<std::string> kModules = {"core",   "geometry",   "nn",        
                                            "rl",     "asset_lift", "assets",      "library",
                                            "robot",  "sim",        "asset_build", "tasks",
                                            "scene",  "validation", "importers",   "manipulation",
-                                           "skills", "workflows",  "cli"};
+                                           "skills", "workflows",  "cli",         "capture"};
 
 struct Line {
   std::string place, text;

@@ -7,12 +7,12 @@
 #include <numbers>
 #include <string>
 
-#include "asset_lift/capture/mat_detection.h"
 #include "assets/asset_folder.h"
+#include "capture/mat_detection.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "program.h"
-#include "tests/asset_lift/mat_photos.h"
+#include "tests/capture/mat_photos.h"
 
 namespace simwright {
 namespace {
@@ -25,11 +25,11 @@ class MatLift : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new core::TemporaryFolder;
-    asset_lift::MatPhotoOptions options;
-    options.lens = asset_lift::PhoneLens(1000, 750, 65 * kRad);
-    poses_ = asset_lift::OrbitPoses(12, {18 * kRad, 40 * kRad, 62 * kRad}, 0.13, options.lens, 5);
-    const auto photos = asset_lift::RenderMatPhotos(
-        asset_lift::PlainBox(kSides, {0.85f, 0.6f, 0.2f}), poses_, options);
+    capture::MatPhotoOptions options;
+    options.lens = capture::PhoneLens(1000, 750, 65 * kRad);
+    poses_ = capture::OrbitPoses(12, {18 * kRad, 40 * kRad, 62 * kRad}, 0.13, options.lens, 5);
+    const auto photos =
+        capture::RenderMatPhotos(capture::PlainBox(kSides, {0.85f, 0.6f, 0.2f}), poses_, options);
     for (std::size_t i = 0; i < photos.size(); ++i) {
       core::WriteFile(Photo(i), core::EncodeJpeg(photos[i].photo, 97));
     }
@@ -111,9 +111,9 @@ TEST(MatCommand, WritesAPageOfTrueSizeAndKeepsExistingFiles) {
           ("pdftoppm -singlefile -r 254 -png " + file.string() + " " + picture.string()).c_str()),
       0);
   const core::Image page = core::ReadImage(picture.string() + ".png");
-  const auto found = asset_lift::DetectMat(page);
+  const auto found = capture::DetectMat(page);
   ASSERT_TRUE(found.has_value());
-  const asset_lift::CaptureMat& mat = asset_lift::CaptureMatOf(asset_lift::PaperSize::kA3);
+  const capture::CaptureMat& mat = capture::CaptureMatOf(capture::PaperSize::kA3);
   EXPECT_EQ(found->paper, mat.paper);
   EXPECT_EQ(static_cast<int>(found->corners.size()), mat.corner_count());
   for (std::size_t i = 0; i < found->corners.size(); ++i) {

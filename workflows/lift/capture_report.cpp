@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "asset_lift/capture/coverage.h"
+#include "capture/coverage.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/text_template.h"
@@ -23,7 +23,7 @@ std::string Decimal(double value, int digits) {
   return text;
 }
 
-core::OrderedJson LensJson(const asset_lift::Lens& lens) {
+core::OrderedJson LensJson(const capture::Lens& lens) {
   return {{"width", lens.width}, {"height", lens.height}, {"fx", lens.fx}, {"fy", lens.fy},
           {"cx", lens.cx},       {"cy", lens.cy},         {"k1", lens.k1}, {"k2", lens.k2},
           {"p1", lens.p1},       {"p2", lens.p2},         {"k3", lens.k3}};
@@ -39,18 +39,18 @@ core::OrderedJson MatrixJson(const Eigen::Isometry3d& pose) {
   return rows;
 }
 
-core::OrderedJson CaptureJson(const asset_lift::CaptureSource& source,
-                              const asset_lift::Capture& capture) {
+core::OrderedJson CaptureJson(const capture::CaptureSource& source,
+                              const capture::Capture& capture) {
   core::OrderedJson json = {{"format", 1},
-                            {"mat", asset_lift::CaptureMatOf(capture.paper).name},
+                            {"mat", capture::CaptureMatOf(capture.paper).name},
                             {"error_pixels", capture.calibration.error}};
   json["lenses"] = core::OrderedJson::array();
-  for (const asset_lift::Lens& lens : capture.calibration.lenses) {
+  for (const capture::Lens& lens : capture.calibration.lenses) {
     json["lenses"].push_back(LensJson(lens));
   }
   json["photos"] = core::OrderedJson::array();
   for (std::size_t i = 0; i < capture.views.size(); ++i) {
-    const asset_lift::MatCalibration::View& view = capture.calibration.views[i];
+    const capture::MatCalibration::View& view = capture.calibration.views[i];
     json["photos"].push_back(
         {{"photo", source.photos[static_cast<std::size_t>(capture.views[i].index)].name},
          {"lens", view.lens},
@@ -61,7 +61,7 @@ core::OrderedJson CaptureJson(const asset_lift::CaptureSource& source,
 }
 
 // Returns the photo with its background in green.
-core::Image MaskedPhoto(const asset_lift::CaptureView& view) {
+core::Image MaskedPhoto(const capture::CaptureView& view) {
   core::Image masked = view.photo;
   for (int y = 0; y < masked.height; ++y) {
     for (int x = 0; x < masked.width; ++x) {
@@ -76,7 +76,7 @@ core::Image MaskedPhoto(const asset_lift::CaptureView& view) {
   return core::Resize(masked, kSheetWidth, height);
 }
 
-std::string Row(const std::string& photo, double error, const asset_lift::ViewDirection& direction,
+std::string Row(const std::string& photo, double error, const capture::ViewDirection& direction,
                 double distance) {
   return "<tr><td>" + core::EscapedMarkup(photo) + "</td><td class=\"n\">" + Decimal(error, 2) +
          "</td><td class=\"n\">" + Decimal(kDegreesPerRadian * direction.azimuth, 0) +
@@ -86,16 +86,16 @@ std::string Row(const std::string& photo, double error, const asset_lift::ViewDi
 
 }  // namespace
 
-void WriteCaptureReport(const asset_lift::CaptureSource& source, const asset_lift::Capture& capture,
+void WriteCaptureReport(const capture::CaptureSource& source, const capture::Capture& capture,
                         const std::filesystem::path& folder) {
   const Eigen::Vector3d object = core::Bounds(capture.hull).center();
   std::vector<core::Image> pictures;
-  std::vector<asset_lift::ViewDirection> directions;
+  std::vector<capture::ViewDirection> directions;
   std::string rows, advice;
   for (std::size_t i = 0; i < capture.views.size(); ++i) {
-    const asset_lift::CaptureView& view = capture.views[i];
+    const capture::CaptureView& view = capture.views[i];
     const Eigen::Vector3d eye = view.camera.position();
-    directions.push_back(asset_lift::DirectionTo(object, eye));
+    directions.push_back(capture::DirectionTo(object, eye));
     rows += Row(source.photos[static_cast<std::size_t>(view.index)].name,
                 capture.calibration.views[i].error, directions.back(), (eye - object).norm());
     pictures.push_back(MaskedPhoto(view));
@@ -110,13 +110,13 @@ void WriteCaptureReport(const asset_lift::CaptureSource& source, const asset_lif
   if (capture.findings.empty()) advice = "<li>Nothing: the photos cover the object.</li>";
   core::WritePng(folder / "capture.png", core::ContactSheet(pictures, 4));
   core::WriteFile(folder / "capture.json", core::JsonText(CaptureJson(source, capture)));
-  const std::string body = core::FillTemplate(
-      data::capture_page_html(), {{"used", std::to_string(capture.views.size())},
-                                  {"count", std::to_string(source.photos.size())},
-                                  {"mat", asset_lift::CaptureMatOf(capture.paper).name},
-                                  {"error", Decimal(capture.calibration.error, 2)},
-                                  {"advice", core::Markup{advice}},
-                                  {"rows", core::Markup{rows}}});
+  const std::string body = core::FillTemplate(data::capture_page_html(),
+                                              {{"used", std::to_string(capture.views.size())},
+                                               {"count", std::to_string(source.photos.size())},
+                                               {"mat", capture::CaptureMatOf(capture.paper).name},
+                                               {"error", Decimal(capture.calibration.error, 2)},
+                                               {"advice", core::Markup{advice}},
+                                               {"rows", core::Markup{rows}}});
   core::WriteFile(folder / "capture.html", Page("Capture", data::photo_run_css(), body));
 }
 

@@ -2,8 +2,8 @@
 
 #include <chrono>
 
-#include "asset_lift/capture/capture_lift.h"
-#include "asset_lift/capture/mat_detection.h"
+#include "capture/capture_lift.h"
+#include "capture/mat_detection.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "workflows/lift/capture_report.h"
@@ -15,8 +15,8 @@ namespace {
 constexpr double kNominalRuler = 0.1;  // m
 constexpr std::uint64_t kMaxPhotoBytes = 1ull << 30;
 
-asset_lift::CaptureSource SourceOf(const std::vector<std::filesystem::path>& photos) {
-  asset_lift::CaptureSource source;
+capture::CaptureSource SourceOf(const std::vector<std::filesystem::path>& photos) {
+  capture::CaptureSource source;
   for (const std::filesystem::path& path : photos) {
     source.photos.push_back({path.filename().string(),
                              core::ExifFocalLength35mm(core::ReadFile(path, kMaxPhotoBytes))});
@@ -34,7 +34,7 @@ bool ShowMat(const std::vector<std::filesystem::path>& photos) {
   int shown = 0;
   for (const std::filesystem::path& path : photos) {
     try {
-      shown += asset_lift::DetectMat(core::ReadImage(path)).has_value();
+      shown += capture::DetectMat(core::ReadImage(path)).has_value();
     } catch (const core::Error&) {
       continue;  // the reconstruction reports it
     }
@@ -54,13 +54,13 @@ LiftOutcome LiftToFolder(const MatLiftRequest& request, core::Progress* progress
                             true,
                             request.seed};
   const auto start = std::chrono::steady_clock::now();
-  const asset_lift::CaptureSource source = SourceOf(request.photos);
-  asset_lift::CaptureOptions options;
+  const capture::CaptureSource source = SourceOf(request.photos);
+  capture::CaptureOptions options;
   options.print_scale = request.ruler / kNominalRuler;
-  const asset_lift::Capture capture = asset_lift::CaptureOnMat(source, options, progress);
-  asset_lift::CaptureLiftOptions fit;
+  const capture::Capture capture = capture::CaptureOnMat(source, options, progress);
+  capture::CaptureLiftOptions fit;
   fit.seed = request.seed;
-  asset_lift::LiftedMesh lifted = asset_lift::LiftCapture(capture, fit, progress);
+  asset_lift::LiftedMesh lifted = capture::LiftCapture(capture, fit, progress);
   if (PriorOf(*finishing.category.category).open) {
     lifted.findings.push_back({"hollow-uncertain", core::Severity::kWarning, request.category,
                                "outlines do not show how deep its hollow is: it may be too shallow",

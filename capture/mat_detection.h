@@ -5,10 +5,10 @@
 
 #include <Eigen/Core>
 
-#include "asset_lift/capture/capture_mat.h"
+#include "capture/capture_mat.h"
 #include "core/image.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 // The chessboard corners of a mat that a photo shows, occluded ones left out.
 struct MatObservation {
@@ -25,4 +25,4 @@ struct MatObservation {
 constexpr int kMinMatCorners = 8;
 std::optional<MatObservation> DetectMat(const core::Image& photo);
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

@@ -1,4 +1,4 @@
-#include "asset_lift/capture/mat_detection.h"
+#include "capture/mat_detection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 namespace {
 
 // The longer sides (pixels) of the photo in which markers are searched, and the share of the
@@ -144,4 +144,4 @@ std::optional<MatObservation> DetectMat(const core::Image& photo) {
   return found;
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

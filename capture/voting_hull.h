@@ -7,11 +7,11 @@
 #include "asset_lift/camera/observed_view.h"
 #include "core/mesh.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 // Masks of which each point of the object lies in all but a few.
 struct HullVote {
-  std::vector<ObservedView> views;
+  std::vector<asset_lift::ObservedView> views;
   int tolerated = 1;  // views whose masks may exclude a point of the object
 };
 
@@ -27,4 +27,4 @@ struct VotingHullOptions {
 core::TriangleMesh VotingHull(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
                               const VotingHullOptions& options);
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

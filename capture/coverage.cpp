@@ -1,11 +1,11 @@
-#include "asset_lift/capture/coverage.h"
+#include "capture/coverage.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 namespace {
 
 constexpr double kDegreesInRadian = 180.0 / std::numbers::pi;
@@ -61,4 +61,4 @@ core::Findings MissingViews(const std::vector<ViewDirection>& directions) {
   return findings;
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

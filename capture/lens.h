@@ -7,7 +7,7 @@
 #include "core/camera.h"
 #include "core/image.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 // A camera's intrinsics with the Brown-Conrady distortion of OpenCV: for (x, y) = (X / Z, Y / Z)
 // and r^2 = x^2 + y^2, the image point is
@@ -35,4 +35,4 @@ core::Camera CropAround(const Eigen::AlignedBox3d& region, const Lens& lens,
 // another size than the lens, or the crop no pixels.
 core::Image RemoveDistortion(const core::Image& photo, const Lens& lens, const core::Camera& crop);
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

@@ -1,4 +1,4 @@
-#include "asset_lift/capture/object_masks.h"
+#include "capture/object_masks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "render/forward.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 namespace {
 
 constexpr int kIterations = 4;
@@ -138,4 +138,4 @@ core::FloatImage SilhouetteOf(const core::TriangleMesh& mesh, const core::Camera
   return silhouette;
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

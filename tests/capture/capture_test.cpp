@@ -6,13 +6,13 @@
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "asset_lift/capture/mat_calibration.h"
-#include "asset_lift/capture/mat_detection.h"
+#include "capture/mat_calibration.h"
+#include "capture/mat_detection.h"
 #include "core/error.h"
 #include "core/random.h"
-#include "tests/asset_lift/mat_photos.h"
+#include "tests/capture/mat_photos.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 namespace {
 
 constexpr double kOneDegree = std::numbers::pi / 180.0;
@@ -151,4 +151,4 @@ TEST(Lens, RemovesTheDistortionThatProjectAdds) {
 }
 
 }  // namespace
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

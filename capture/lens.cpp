@@ -1,4 +1,4 @@
-#include "asset_lift/capture/lens.h"
+#include "capture/lens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 Eigen::Vector2d Lens::Project(const Eigen::Vector3d& point) const {
   const double x = point.x() / point.z(), y = point.y() / point.z();
@@ -77,4 +77,4 @@ core::Image RemoveDistortion(const core::Image& photo, const Lens& lens, const c
   return straight;
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

@@ -1,4 +1,4 @@
-#include "asset_lift/capture/capture_lift.h"
+#include "capture/capture_lift.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +10,11 @@
 #include "core/error.h"
 #include "texture/photo_projection.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 namespace {
 
-Matte MatteOf(const CaptureView& view) {
-  Matte matte;
+asset_lift::Matte MatteOf(const CaptureView& view) {
+  asset_lift::Matte matte;
   matte.method = "views together";
   matte.alpha = core::Image(view.photo.width, view.photo.height, 1);
   matte.left = view.photo.width;
@@ -45,13 +45,13 @@ CaptureLiftOptions::CaptureLiftOptions() {
   fit.mesh.last_edge_ratio = 0.012;
 }
 
-LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options,
-                       core::Progress* progress) {
-  LiftedMesh lifted;
+asset_lift::LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options,
+                                   core::Progress* progress) {
+  asset_lift::LiftedMesh lifted;
   lifted.findings = capture.findings;
-  std::vector<ObservedView> views;
+  std::vector<asset_lift::ObservedView> views;
   std::vector<texture::PhotoView> photos;
-  std::vector<Matte> mattes;
+  std::vector<asset_lift::Matte> mattes;
   for (const CaptureView& view : capture.views) {
     mattes.push_back(MatteOf(view));
     if (mattes.back().right <= mattes.back().left) {
@@ -59,15 +59,16 @@ LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options
       continue;
     }
     photos.push_back({view.camera, view.photo, mattes.back().alpha});
-    views.push_back(CropView(view.photo, mattes.back().alpha,
-                             FrameAround(mattes.back(), view.camera, 1.0), options.fit_side));
+    views.push_back(asset_lift::CropView(view.photo, mattes.back().alpha,
+                                         asset_lift::FrameAround(mattes.back(), view.camera, 1.0),
+                                         options.fit_side));
   }
   if (views.empty()) throw core::Error("no view has a mask", "capture");
-  ShapeFitOptions stages = options.fit;
+  asset_lift::ShapeFitOptions stages = options.fit;
   stages.field.seed = stages.mesh.seed = options.seed;
   stages.mesh.max_side = options.fit_side;
-  const ShapeFit fit =
-      FitShape(views, InitialShapeFrom(capture.hull), nullptr, nullptr, stages, progress);
+  const asset_lift::ShapeFit fit = asset_lift::FitShape(
+      views, asset_lift::InitialShapeFrom(capture.hull), nullptr, nullptr, stages, progress);
   lifted.findings.insert(lifted.findings.end(), fit.findings.begin(), fit.findings.end());
   progress->Stage("texture");
   texture::PhotoProjectionOptions projection;
@@ -77,7 +78,7 @@ LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options
   lifted.photo = photos[0].photo;
   lifted.matte = mattes[0];
   lifted.start = "the visual hull of " + std::to_string(views.size()) + " photos";
-  lifted.silhouette_iou = SilhouetteIou(fit.mesh, lifted.camera, lifted.matte);
+  lifted.silhouette_iou = asset_lift::SilhouetteIou(fit.mesh, lifted.camera, lifted.matte);
   lifted.findings.push_back({"shape", core::Severity::kInfo, "",
                              "the shape began as " + lifted.start + " on a mat",
                              lifted.silhouette_iou});
@@ -85,4 +86,4 @@ LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options
   return lifted;
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

@@ -1,4 +1,4 @@
-#include "tests/asset_lift/mat_photos.h"
+#include "tests/capture/mat_photos.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "render/forward.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 namespace {
 
 constexpr double kMargin = 1.12;  // of the pinhole image's sides over those of the distorted one
@@ -232,4 +232,4 @@ std::vector<MatPhoto> RenderMatPhotos(const core::TexturedMesh& object,
   return photos;
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

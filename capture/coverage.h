@@ -6,7 +6,7 @@
 
 #include "core/finding.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 // A camera's direction from the object, rad.
 struct ViewDirection {
@@ -20,4 +20,4 @@ ViewDirection DirectionTo(const Eigen::Vector3d& object, const Eigen::Vector3d& 
 // uncertain), none from above 50 degrees (hollows stay filled).
 core::Findings MissingViews(const std::vector<ViewDirection>& directions);
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

@@ -9,7 +9,7 @@
 
 #include "core/image.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 enum class PaperSize { kA4, kA3, kLetter };
 
@@ -57,4 +57,4 @@ core::Image MatPicture(const CaptureMat& mat, double pixels_per_metre);
 // print with, and how to use it.
 std::string MatPdf(const CaptureMat& mat);
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

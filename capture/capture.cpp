@@ -1,17 +1,17 @@
-#include "asset_lift/capture/capture.h"
+#include "capture/capture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "asset_lift/capture/coverage.h"
-#include "asset_lift/capture/mat_evidence.h"
-#include "asset_lift/capture/object_masks.h"
-#include "asset_lift/capture/voting_hull.h"
+#include "capture/coverage.h"
+#include "capture/mat_evidence.h"
+#include "capture/object_masks.h"
+#include "capture/voting_hull.h"
 #include "core/error.h"
 #include "core/parallel.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 namespace {
 
 constexpr double kHeightOverPage = 1.3;   // the tallest object, in heights of the page
@@ -133,7 +133,7 @@ HullVote MatCapture::Vote(double tolerated, bool open_beside_mat) const {
     const bool any = std::any_of(opacity.values.begin(), opacity.values.end(),
                                  [](float v) { return v >= 0.5f; });
     if (!any) continue;
-    ObservedView view;
+    asset_lift::ObservedView view;
     view.camera = result_.views[i].camera;
     view.opacity = open_beside_mat ? OpenBesideMat(opacity, evidence_[i]) : opacity;
     vote.views.push_back(std::move(view));
@@ -218,4 +218,4 @@ Capture CaptureOnMat(const CaptureSource& source, const CaptureOptions& options,
   return MatCapture(source, options, progress).Run();
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

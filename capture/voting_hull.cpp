@@ -1,4 +1,4 @@
-#include "asset_lift/capture/voting_hull.h"
+#include "capture/voting_hull.h"
 
 #include <algorithm>
 #include <functional>
@@ -9,7 +9,7 @@
 #include "core/progress.h"
 #include "geometry/isosurface.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 namespace {
 
@@ -21,13 +21,13 @@ class ConeVote {
     if (static_cast<int>(vote.views.size()) <= tolerated_) {
       throw core::Error("it needs more views than it tolerates", "visual hull");
     }
-    for (const ObservedView& view : vote.views) cones_.emplace_back(view);
+    for (const asset_lift::ObservedView& view : vote.views) cones_.emplace_back(view);
   }
 
   // Returns the signed distance to the admitted points, m, positive outside. `distances`: scratch.
   double At(const Eigen::Vector3d& point, std::vector<double>* distances) const {
     distances->clear();
-    for (const SilhouetteCone& cone : cones_) distances->push_back(cone.At(point));
+    for (const asset_lift::SilhouetteCone& cone : cones_) distances->push_back(cone.At(point));
     const auto decisive = distances->begin() + tolerated_;
     std::nth_element(distances->begin(), decisive, distances->end(), std::greater<>());
     return *decisive;
@@ -35,7 +35,7 @@ class ConeVote {
 
  private:
   int tolerated_;
-  std::vector<SilhouetteCone> cones_;
+  std::vector<asset_lift::SilhouetteCone> cones_;
 };
 
 }  // namespace
@@ -67,7 +67,7 @@ core::TriangleMesh VotingHull(const std::vector<HullVote>& votes, const Eigen::A
     }
   });
   const core::TriangleMesh hull = geometry::ExtractIsosurface(field, 0.0f);
-  return hull.empty() ? hull : LargeComponents(hull);
+  return hull.empty() ? hull : asset_lift::LargeComponents(hull);
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

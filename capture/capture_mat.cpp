@@ -1,4 +1,4 @@
-#include "asset_lift/capture/capture_mat.h"
+#include "capture/capture_mat.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 namespace {
 
 constexpr double kPrinterMargin = 0.006;  // m, of the page's edge, which printers leave white
@@ -133,4 +133,4 @@ core::Image MatPicture(const CaptureMat& mat, double pixels_per_metre) {
   return picture;
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

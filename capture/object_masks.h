@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "asset_lift/camera/observed_view.h"
-#include "asset_lift/capture/mat_evidence.h"
+#include "capture/mat_evidence.h"
 #include "core/image.h"
 #include "core/mesh.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 // Segments the object that stands on a mat in one photo (GrabCut, Rother et al. 2004): pixels that
 // look as the mat should are background, pixels that do not are object. `hull`: the silhouette of
@@ -24,4 +24,4 @@ core::FloatImage OpenBesideMat(const core::FloatImage& opacity, const MatEvidenc
 // Returns the silhouette of a mesh (H x W x 1), 0 or 1 and softened at the outline.
 core::FloatImage SilhouetteOf(const core::TriangleMesh& mesh, const core::Camera& camera);
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

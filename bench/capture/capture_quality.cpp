@@ -19,17 +19,17 @@
 #include <string>
 #include <vector>
 
-#include "asset_lift/capture/capture.h"
-#include "asset_lift/capture/capture_lift.h"
-#include "asset_lift/capture/object_masks.h"
 #include "assets/mesh_import.h"
 #include "assets/obj_file.h"
+#include "bench/asset_lift/held_out.h"
+#include "capture/capture.h"
+#include "capture/capture_lift.h"
+#include "capture/object_masks.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "geometry/surface_distance.h"
-#include "held_out.h"
 #include "library/rigid/rigid_kinds.h"
-#include "tests/asset_lift/mat_photos.h"
+#include "tests/capture/mat_photos.h"
 
 namespace simwright::bench {
 namespace {
@@ -90,7 +90,7 @@ std::vector<CapturedObject> Objects(int count) {
 
 // Renders the photos, or reads those of an earlier run.
 std::vector<core::Image> PhotosOf(const CapturedObject& object, const Settings& settings,
-                                  const asset_lift::MatPhotoOptions& options,
+                                  const capture::MatPhotoOptions& options,
                                   const std::vector<Eigen::Isometry3d>& poses) {
   std::vector<core::Image> photos;
   const auto file = [&](std::size_t i) {
@@ -100,7 +100,7 @@ std::vector<core::Image> PhotosOf(const CapturedObject& object, const Settings& 
     for (std::size_t i = 0; i < poses.size(); ++i) photos.push_back(core::ReadImage(file(i)));
     return photos;
   }
-  for (asset_lift::MatPhoto& photo : asset_lift::RenderMatPhotos(object.mesh, poses, options)) {
+  for (capture::MatPhoto& photo : capture::RenderMatPhotos(object.mesh, poses, options)) {
     photos.push_back(std::move(photo.photo));
   }
   if (settings.photos_folder.empty()) return photos;
@@ -128,10 +128,10 @@ struct MaskScore {
   double mean = 0.0, least = 1.0;
 };
 
-MaskScore MaskIou(const asset_lift::Capture& capture, const core::TriangleMesh& truth) {
+MaskScore MaskIou(const capture::Capture& capture, const core::TriangleMesh& truth) {
   MaskScore score;
-  for (const asset_lift::CaptureView& view : capture.views) {
-    const core::FloatImage expected = asset_lift::SilhouetteOf(truth, view.camera);
+  for (const capture::CaptureView& view : capture.views) {
+    const core::FloatImage expected = capture::SilhouetteOf(truth, view.camera);
     double both = 0.0, either = 0.0;
     for (std::size_t i = 0; i < expected.values.size(); ++i) {
       const bool a = expected.values[i] >= 0.5f, b = view.opacity.values[i] >= 0.5f;
@@ -144,21 +144,19 @@ MaskScore MaskIou(const asset_lift::Capture& capture, const core::TriangleMesh& 
   return score;
 }
 
-double PositionError(const asset_lift::Capture& capture,
-                     const std::vector<Eigen::Isometry3d>& poses) {
+double PositionError(const capture::Capture& capture, const std::vector<Eigen::Isometry3d>& poses) {
   double worst = 0.0;
-  for (const asset_lift::CaptureView& view : capture.views) {
+  for (const capture::CaptureView& view : capture.views) {
     const Eigen::Vector3d truth = poses[static_cast<std::size_t>(view.index)].translation();
     worst = std::max(worst, (view.camera.position() - truth).norm() / truth.norm());
   }
   return 100.0 * worst;
 }
 
-void Dump(const fs::path& folder, const CapturedObject& object,
-          const asset_lift::Capture& capture) {
+void Dump(const fs::path& folder, const CapturedObject& object, const capture::Capture& capture) {
   fs::create_directories(folder);
   std::vector<core::Image> pictures;
-  for (const asset_lift::CaptureView& view : capture.views) {
+  for (const capture::CaptureView& view : capture.views) {
     core::Image cut = view.photo;
     for (int y = 0; y < cut.height; ++y) {
       for (int x = 0; x < cut.width; ++x) {
@@ -183,13 +181,13 @@ double SizeError(const core::TriangleMesh& truth, const core::TriangleMesh& mesh
 
 // Returns the Chamfer distance of the final mesh, percent.
 double Measure(const CapturedObject& object, const Settings& settings) {
-  asset_lift::MatPhotoOptions options;
-  options.lens = asset_lift::PhoneLens(settings.width, settings.width * 3 / 4, 65 * kRadian);
+  capture::MatPhotoOptions options;
+  options.lens = capture::PhoneLens(settings.width, settings.width * 3 / 4, 65 * kRadian);
   const double radius = std::max(0.12, 0.75 * core::Bounds(object.mesh.mesh).diagonal().norm());
-  const auto poses = asset_lift::OrbitPoses(
+  const auto poses = capture::OrbitPoses(
       settings.photos, {15 * kRadian, 38 * kRadian, 62 * kRadian}, radius, options.lens, 7);
   const std::vector<core::Image> photos = PhotosOf(object, settings, options, poses);
-  asset_lift::CaptureSource source;
+  capture::CaptureSource source;
   for (std::size_t i = 0; i < photos.size(); ++i) source.photos.push_back({std::to_string(i), 0.0});
   source.read = [&](int i) { return photos[static_cast<std::size_t>(i)]; };
   const auto start = std::chrono::steady_clock::now();
@@ -197,7 +195,7 @@ double Measure(const CapturedObject& object, const Settings& settings) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   core::Progress progress;
-  const asset_lift::Capture capture = asset_lift::CaptureOnMat(source, {}, &progress);
+  const capture::Capture capture = capture::CaptureOnMat(source, {}, &progress);
   const double hull_seconds = seconds();
   const MaskScore masks = MaskIou(capture, object.mesh.mesh);
   const double hull = ChamferPercent(object.mesh.mesh, capture.hull);
@@ -206,7 +204,7 @@ double Measure(const CapturedObject& object, const Settings& settings) {
   double all_seconds = hull_seconds;
   if (!settings.hull_only) {
     const auto begin = std::chrono::steady_clock::now();
-    const asset_lift::LiftedMesh lifted = asset_lift::LiftCapture(capture, {}, &progress);
+    const asset_lift::LiftedMesh lifted = capture::LiftCapture(capture, {}, &progress);
     all_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     fitted = ChamferPercent(object.mesh.mesh, lifted.mesh.mesh);
     size = SizeError(object.mesh.mesh, lifted.mesh.mesh);

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "asset_lift/camera/observed_view.h"
-#include "asset_lift/capture/mat_calibration.h"
+#include "capture/mat_calibration.h"
 #include "core/finding.h"
 #include "core/image.h"
 #include "core/mesh.h"
 #include "core/progress.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 // The photos of one object, read one by one: two dozen photos of 12 megapixels do not fit into a
 // small memory together.
@@ -59,4 +59,4 @@ struct Capture {
 Capture CaptureOnMat(const CaptureSource& source, const CaptureOptions& options,
                      core::Progress* progress);
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

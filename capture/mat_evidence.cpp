@@ -1,4 +1,4 @@
-#include "asset_lift/capture/mat_evidence.h"
+#include "capture/mat_evidence.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 namespace {
 
 constexpr double kPicturePixels = 4000.0;  // of the mat's picture, per metre
@@ -197,4 +197,4 @@ MatEvidence CompareWithMat(const core::Image& photo, const core::Camera& camera,
   return evidence;
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

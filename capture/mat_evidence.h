@@ -1,11 +1,11 @@
 #pragma once
 
-#include "asset_lift/capture/capture_mat.h"
+#include "capture/capture_mat.h"
 #include "core/camera.h"
 #include "core/float_image.h"
 #include "core/image.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 // The comparison of a photo with the mat that it should show, per pixel.
 struct MatEvidence {
@@ -25,4 +25,4 @@ struct MatEvidence {
 MatEvidence CompareWithMat(const core::Image& photo, const core::Camera& camera,
                            const CaptureMat& mat, double print_scale);
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

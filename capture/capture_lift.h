@@ -1,14 +1,14 @@
 #pragma once
 
-#include "asset_lift/capture/capture.h"
 #include "asset_lift/lift.h"
 #include "asset_lift/mesh_fit/shape_fit_options.h"
+#include "capture/capture.h"
 #include "core/progress.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 struct CaptureLiftOptions {
-  ShapeFitOptions fit;
+  asset_lift::ShapeFitOptions fit;
   int fit_side = 320;       // pixels of the longer side of the views that the mesh is fitted to
   int texture_size = 2048;  // pixels per side
   std::uint64_t seed = 1;
@@ -20,7 +20,7 @@ struct CaptureLiftOptions {
 // colours and textured from all photos; surfaces that no photo shows take the fitted colours. In
 // the mat's frame, m; its camera and photo are the first view's. Throws core::Error for a capture
 // without a masked view, and the exceptions of FitShape; core::Cancelled.
-LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options,
-                       core::Progress* progress);
+asset_lift::LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options,
+                                   core::Progress* progress);
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

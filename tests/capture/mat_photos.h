@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "asset_lift/capture/capture_mat.h"
-#include "asset_lift/capture/lens.h"
+#include "capture/capture_mat.h"
+#include "capture/lens.h"
 #include "core/camera.h"
 #include "core/image.h"
 #include "core/mesh.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 // Settings of rendered photos of an object on a mat: the ground truth of a capture.
 struct MatPhotoOptions {
@@ -45,4 +45,4 @@ std::vector<MatPhoto> RenderMatPhotos(const core::TexturedMesh& object,
                                       const std::vector<Eigen::Isometry3d>& poses,
                                       const MatPhotoOptions& options);
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

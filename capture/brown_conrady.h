@@ -1,12 +1,12 @@
 #pragma once
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 // The free values of a lens with square pixels, in the order in which Ceres sees them.
 enum LensValue { kFocal, kCenterX, kCenterY, kK1, kK2, kP1, kP2, kK3, kLensValues };
 
 // Projects a point of the camera's frame (3) by the lens values (kLensValues) to pixels (2): the
-// formula of asset_lift/capture/lens.h, for numbers with derivatives.
+// formula of capture/lens.h, for numbers with derivatives.
 template <typename T>
 void ProjectByLens(const T* lens, const T* point, T* pixel) {
   const T x = point[0] / point[2], y = point[1] / point[2];
@@ -20,4 +20,4 @@ void ProjectByLens(const T* lens, const T* point, T* pixel) {
       lens[kCenterY];
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

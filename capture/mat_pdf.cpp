@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "asset_lift/capture/capture_mat.h"
+#include "capture/capture_mat.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 namespace {
 
 constexpr double kPointsPerMetre = 72.0 / 0.0254;
@@ -104,4 +104,4 @@ std::string MatPdf(const CaptureMat& mat) {
          " /Root 1 0 R >>\nstartxref\n" + std::to_string(table) + "\n%%EOF\n";
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

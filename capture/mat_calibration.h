@@ -4,11 +4,11 @@
 
 #include <Eigen/Geometry>
 
-#include "asset_lift/capture/lens.h"
-#include "asset_lift/capture/mat_detection.h"
+#include "capture/lens.h"
+#include "capture/mat_detection.h"
 #include "core/finding.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 
 struct MatCalibrationInput {
   // A photo's corners, and its 35 mm-equivalent focal length (mm; 0: unknown).
@@ -46,4 +46,4 @@ struct MatCalibration {
 // input is invalid, or the corners do not determine the cameras.
 MatCalibration CalibrateOnMat(const MatCalibrationInput& input);
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture

@@ -1,4 +1,4 @@
-#include "asset_lift/capture/mat_calibration.h"
+#include "capture/mat_calibration.h"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@
 #include <ceres/rotation.h>
 #include <opencv2/calib3d.hpp>
 
-#include "asset_lift/capture/brown_conrady.h"
+#include "capture/brown_conrady.h"
 #include "core/error.h"
 
-namespace simwright::asset_lift {
+namespace simwright::capture {
 namespace {
 
 using LensValues = std::array<double, kLensValues>;
@@ -394,4 +394,4 @@ MatCalibration CalibrateOnMat(const MatCalibrationInput& input) {
   return result;
 }
 
-}  // namespace simwright::asset_lift
+}  // namespace simwright::capture
