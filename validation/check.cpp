@@ -162,7 +162,13 @@ CheckReport CheckAsset(const fs::path& folder, const CheckLimits& limits) {
   CheckReaders(asset, folder, limits, &results);
   AddResultOrFailure("settles-bullet", &results,
                      [&] { CheckDynamics(asset, folder, limits, &results); });
-  return {folder.string(), results.Take()};
+  CheckReport report{folder.string(), {}};
+  AddResultOrFailure("appearance", &results, [&] {
+    if (const auto photo = ReadAssetPhoto(folder))
+      report.appearance = JudgeAppearance(asset, *photo);
+  });
+  report.results = results.Take();
+  return report;
 }
 
 CheckReport CheckBeforeKeeping(const fs::path& folder, const std::string& name,

@@ -75,15 +75,46 @@ const char* GradeSentence(Grade grade) {
                                      : "does not pass";
 }
 
+namespace {
+
+std::string TableRow(const char* verdict, const core::Finding& row) {
+  char line[96];
+  std::snprintf(line, sizeof(line), "  %-4s  %-20s %12.4g  ", verdict, row.code.c_str(),
+                row.figure);
+  return line + row.sentence + "\n";
+}
+
+core::OrderedJson AppearanceJson(const Appearance& appearance) {
+  core::OrderedJson json{{"grade", LookName(appearance.look)},
+                         {"reasons", appearance.reasons},
+                         {"remedy", appearance.remedy}};
+  json["measures"] = core::OrderedJson::array();
+  for (const core::Finding& row : appearance.measures) {
+    json["measures"].push_back(
+        {{"property", row.code}, {"figure", row.figure}, {"sentence", row.sentence}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string AppearanceSentence(const Appearance& appearance) {
+  std::string sentence = std::string("it looks ") + LookName(appearance.look);
+  if (!appearance.reasons.empty()) sentence += ": " + appearance.reasons;
+  return sentence;
+}
+
 std::string CheckTable(const CheckReport& report) {
   std::string table = report.subject + "\n";
-  for (const core::Finding& row : report.results) {
-    char line[96];
-    std::snprintf(line, sizeof(line), "  %-4s  %-20s %12.4g  ", Verdict(row), row.code.c_str(),
-                  row.figure);
-    table += line + row.sentence + "\n";
+  for (const core::Finding& row : report.results) table += TableRow(Verdict(row), row);
+  if (report.appearance) {
+    for (const core::Finding& row : report.appearance->measures) table += TableRow("look", row);
   }
-  return table + "  " + GradeSentence(report.grade()) + "\n";
+  table += std::string("  ") + GradeSentence(report.grade()) + "\n";
+  if (!report.appearance) return table;
+  table += "  " + AppearanceSentence(*report.appearance) + "\n";
+  if (report.appearance->remedy.empty()) return table;
+  return table + "  to improve it: " + report.appearance->remedy + "\n";
 }
 
 std::string CheckJson(const CheckReport& report) {
@@ -98,6 +129,7 @@ std::string CheckJson(const CheckReport& report) {
                             {"figure", row.figure},
                             {"sentence", row.sentence}});
   }
+  if (report.appearance) json["appearance"] = AppearanceJson(*report.appearance);
   return core::JsonText(json);
 }
 

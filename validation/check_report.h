@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/error.h"
 #include "core/finding.h"
+#include "validation/appearance.h"
 #include "validation/check_grade.h"
 
 namespace simwright::validation {
@@ -14,6 +16,7 @@ namespace simwright::validation {
 struct CheckReport {
   std::string subject;
   core::Findings results;
+  std::optional<Appearance> appearance = {};  // of an asset that has the photo it was made from
   Grade grade() const { return GradeOf(results); }
   bool passed() const { return grade() != Grade::kFail; }
   core::Findings Warnings() const;  // the results that the user must be told about
@@ -63,6 +66,9 @@ void RequirePassed(const CheckReport& report, const std::string& name);
 
 // Returns "passes", "passes with warnings" or "does not pass".
 const char* GradeSentence(Grade grade);
+
+// Returns "it looks B: its outline differs from the photo's (0.95)".
+std::string AppearanceSentence(const Appearance& appearance);
 
 // Formats the report as a table for a terminal, one row per property.
 std::string CheckTable(const CheckReport& report);

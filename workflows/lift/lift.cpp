@@ -7,17 +7,20 @@
 #include "asset_build/preview.h"
 #include "asset_lift/multi_view/multi_view_lift.h"
 #include "assets/asset_folder.h"
+#include "assets/camera_file.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "physics_params/size_plausibility.h"
 #include "render/forward.h"
-#include "workflows/lift/camera_file.h"
+#include "validation/appearance.h"
+#include "validation/check_report.h"
 #include "workflows/lift/cut_out.h"
 #include "workflows/lift/generated_lift.h"
 #include "workflows/lift/lift_finishing.h"
 #include "workflows/priors/prior_weights.h"
 
 namespace simwright::workflows {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -67,6 +70,24 @@ namespace {
 // 5 % a side.
 constexpr double kPhotoVolumeError = 0.15;
 
+// Returns the photo's camera in the asset's link frame; `scale`: metres per unit of the camera's.
+core::Camera CameraInLink(core::Camera camera, double scale, const assets::Asset& asset) {
+  camera.world_from_camera.translation() *= scale;
+  camera.world_from_camera = asset.link_from_input * camera.world_from_camera;
+  return camera;
+}
+
+// Returns the judgement of an asset's looks as a finding.
+core::Finding AppearanceFinding(const validation::Appearance& appearance, const std::string& name) {
+  const bool good = appearance.look <= validation::Look::kB;
+  return {"appearance",
+          good ? core::Severity::kInfo : core::Severity::kWarning,
+          name,
+          validation::AppearanceSentence(appearance),
+          static_cast<double>(appearance.look),
+          appearance.remedy};
+}
+
 }  // namespace
 
 LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
@@ -104,10 +125,19 @@ LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
   built.asset.scale = scale;
   built.asset.findings.insert(built.asset.findings.begin(), lifted.findings.begin(),
                               lifted.findings.end());
-  assets::WriteAsset(built.asset, staged->staging());
-  core::WritePng(staged->staging() / "preview.png", asset_build::AssetPreview(built.asset));
-  core::WritePng(staged->staging() / "matte.png", cut);
-  core::WritePng(staged->staging() / "lift.png", sheet);
+  const fs::path& folder = staged->staging();
+  core::WritePng(folder / validation::kCutOutFile, cut);
+  // A stretched object has no camera that sees it as the photo does.
+  if (finishing.size.size() != 3 && !std::isnan(lifted.silhouette_iou)) {
+    const core::Camera camera = CameraInLink(lifted.camera, scale, built.asset);
+    assets::WriteCameraFile({{validation::kCutOutFile, camera}},
+                            folder / validation::kPhotoCameraFile);
+    built.asset.findings.push_back(AppearanceFinding(
+        validation::JudgeAppearance(built.asset, {cut, camera}), built.asset.name));
+  }
+  assets::WriteAsset(built.asset, folder);
+  core::WritePng(folder / "preview.png", asset_build::AssetPreview(built.asset));
+  core::WritePng(folder / "lift.png", sheet);
   staged->Commit();
   LiftOutcome outcome{finishing.output, built.seconds, built.asset.findings, lifted.silhouette_iou};
   outcome.seconds["lift"] = lift_seconds;
@@ -173,7 +203,7 @@ LiftOutcome LiftToFolder(const MultiLiftRequest& request, core::Progress* progre
                       request.stated,
                       true,
                       request.seed};
-  const std::map<std::string, core::Camera> cameras = ReadCameraFile(request.cameras);
+  const std::map<std::string, core::Camera> cameras = assets::ReadCameraFile(request.cameras);
   std::vector<asset_lift::PosedPhoto> photos;
   for (const std::filesystem::path& path : request.photos) {
     const auto found = cameras.find(path.filename().string());

@@ -40,7 +40,7 @@ struct LiftRequest {
 // Several photos of one object with known cameras.
 struct MultiLiftRequest {
   std::vector<std::filesystem::path> photos;
-  std::filesystem::path cameras;  // cams.json, see camera_file.h
+  std::filesystem::path cameras;  // cams.json, see assets/camera_file.h
   std::string category;
   double height = 0.0;           // m; 0: the size that the cameras give
   asset_build::StatedSize size;  // overrides `height`

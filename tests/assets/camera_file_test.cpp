@@ -1,11 +1,11 @@
-#include "workflows/lift/camera_file.h"
+#include "assets/camera_file.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/files.h"
 
-namespace simwright::workflows {
+namespace simwright::assets {
 namespace {
 
 constexpr char kGood[] =
@@ -52,4 +52,4 @@ TEST(CameraFile, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace simwright::workflows
+}  // namespace simwright::assets

@@ -1,8 +1,9 @@
-#include "workflows/lift/camera_file.h"
+#include "assets/camera_file.h"
 
+#include "core/files.h"
 #include "core/json.h"
 
-namespace simwright::workflows {
+namespace simwright::assets {
 namespace {
 
 constexpr double kMaxPixels = 1e6;
@@ -53,4 +54,26 @@ std::map<std::string, core::Camera> ReadCameraFile(const std::filesystem::path& 
   return cameras;
 }
 
-}  // namespace simwright::workflows
+void WriteCameraFile(const std::map<std::string, core::Camera>& cameras,
+                     const std::filesystem::path& path) {
+  core::OrderedJson json;
+  json["cameras"] = core::OrderedJson::array();
+  for (const auto& [photo, camera] : cameras) {
+    core::OrderedJson pose = core::OrderedJson::array();
+    for (int r = 0; r < 4; ++r) {
+      const Eigen::RowVector4d row = camera.world_from_camera.matrix().row(r);
+      pose.push_back({row[0], row[1], row[2], row[3]});
+    }
+    json["cameras"].push_back({{"photo", photo},
+                               {"width", camera.width},
+                               {"height", camera.height},
+                               {"fx", camera.fx},
+                               {"fy", camera.fy},
+                               {"cx", camera.cx},
+                               {"cy", camera.cy},
+                               {"world_from_camera", std::move(pose)}});
+  }
+  core::WriteFile(path, core::JsonText(json));
+}
+
+}  // namespace simwright::assets

@@ -6,7 +6,7 @@
 
 #include "core/camera.h"
 
-namespace simwright::workflows {
+namespace simwright::assets {
 
 // Reads cameras, keyed by the file names of their photos, from JSON:
 //   {"cameras": [{"photo": "a.jpg", "width": 640, "height": 480, "fx": 600, "fy": 600,
@@ -17,4 +17,8 @@ namespace simwright::workflows {
 // or non-finite value or an invalid rotation.
 std::map<std::string, core::Camera> ReadCameraFile(const std::filesystem::path& path);
 
-}  // namespace simwright::workflows
+// Writes cameras in that form, keyed by the file names of their photos.
+void WriteCameraFile(const std::map<std::string, core::Camera>& cameras,
+                     const std::filesystem::path& path);
+
+}  // namespace simwright::assets

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "core/camera.h"
+#include "core/image.h"
+
+namespace simwright::validation {
+
+// The photo that an asset was reconstructed from.
+struct AssetPhoto {
+  core::Image cut_out;  // RGBA; alpha is the object
+  core::Camera camera;  // link frame, m
+};
+
+// The file of the photo's camera in an asset's folder (camera_file.h), and its photo.
+inline constexpr char kPhotoCameraFile[] = "camera.json";
+inline constexpr char kCutOutFile[] = "matte.png";
+
+// Returns the photo of an asset folder; nothing if the folder has no camera file. Throws
+// core::Error for damaged files.
+std::optional<AssetPhoto> ReadAssetPhoto(const std::filesystem::path& folder);
+
+}  // namespace simwright::validation
