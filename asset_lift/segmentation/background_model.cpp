@@ -5,8 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 #include <opencv2/saliency.hpp>
-#include <opencv2/ximgproc/edge_filter.hpp>
 
+#include "asset_lift/segmentation/matte_edges.h"
 #include "asset_lift/segmentation/round_outline.h"
 #include "core/error.h"
 
@@ -25,14 +25,7 @@ cv::Mat WorkingCopy(const core::Image& photo, int side) {
   const core::Image small =
       core::Resize(photo, std::max(16, static_cast<int>(std::lround(photo.width * scale))),
                    std::max(16, static_cast<int>(std::lround(photo.height * scale))));
-  cv::Mat bgr(small.height, small.width, CV_8UC3);
-  for (int y = 0; y < small.height; ++y) {
-    for (int x = 0; x < small.width; ++x) {
-      const std::uint8_t* p = small.At(x, y);
-      const bool grey = small.channels == 1;
-      bgr.at<cv::Vec3b>(y, x) = {p[grey ? 0 : 2], p[grey ? 0 : 1], p[0]};
-    }
-  }
+  const cv::Mat bgr = PhotoInBgr(small);
   cv::Mat smooth;
   cv::bilateralFilter(bgr, smooth, 7, 30.0, 5.0);
   return smooth;
@@ -216,21 +209,7 @@ cv::Mat FindForeground(const core::Image& photo, const SegmentationOptions& opti
   cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc);
   // Handle holes are kept; highlights and prints on the object are smaller and are filled.
   mask = FilledHoles(mask, 0.012 * cv::countNonZero(mask));
-  cv::Mat soft, guided, full;
-  mask.convertTo(soft, CV_32F, 1.0 / 255.0);
-  cv::Mat guide;
-  bgr.convertTo(guide, CV_32F, 1.0 / 255.0);
-  cv::ximgproc::guidedFilter(guide, soft, guided, 2 * radius, 1e-3);
-  // The filter moves edges; it must not open the inside or reach far outside.
-  cv::Mat inside, outside;
-  cv::erode(mask, inside, disc);
-  cv::dilate(mask, outside, disc);
-  guided.setTo(1.0, inside);
-  guided.setTo(0.0, outside == 0);
-  cv::resize(guided, full, cv::Size(photo.width, photo.height), 0, 0, cv::INTER_LINEAR);
-  cv::Mat alpha;
-  full.convertTo(alpha, CV_8U, 255.0);
-  return alpha;
+  return RefineMatte(PhotoInBgr(photo), mask, radius);
 }
 
 }  // namespace simwright::asset_lift

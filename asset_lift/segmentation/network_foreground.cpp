@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include <opencv2/imgproc.hpp>
-#include <opencv2/ximgproc/edge_filter.hpp>
 
+#include "asset_lift/segmentation/matte_edges.h"
 #include "core/error.h"
 
 namespace simwright::asset_lift {
@@ -23,15 +23,7 @@ cv::Mat SmallBgr(const core::Image& photo) {
   const core::Image small =
       core::Resize(photo, std::max(16, static_cast<int>(std::lround(photo.width * scale))),
                    std::max(16, static_cast<int>(std::lround(photo.height * scale))));
-  cv::Mat bgr(small.height, small.width, CV_8UC3);
-  for (int y = 0; y < small.height; ++y) {
-    for (int x = 0; x < small.width; ++x) {
-      const std::uint8_t* p = small.At(x, y);
-      const bool grey = small.channels < 3;
-      bgr.at<cv::Vec3b>(y, x) = {p[grey ? 0 : 2], p[grey ? 0 : 1], p[0]};
-    }
-  }
-  return bgr;
+  return PhotoInBgr(small);
 }
 
 cv::Mat BandElement(int radius) {
@@ -53,24 +45,6 @@ cv::Mat TrimapOf(const cv::Mat& saliency, int band) {
 
 cv::Mat GrabCutForeground(const cv::Mat& trimap) {
   return (trimap == cv::GC_FGD) | (trimap == cv::GC_PR_FGD);
-}
-
-// Returns `mask` (255 inside) as a soft matte of the size `photo`, with the edges of `bgr`, which
-// move by at most 2 pixels.
-cv::Mat RefinedEdges(const cv::Mat& bgr, const cv::Mat& mask, const cv::Size& photo) {
-  constexpr int kRadius = 2;
-  // In 8-bit units. With values in [0, 1], OpenCV 4.6 treats the covariance of a guide as singular
-  // and returns the box mean, in which thin parts vanish.
-  constexpr double kEpsilon = 1e-3 * 255.0 * 255.0;
-  cv::Mat guided, inside, outside, full;
-  cv::ximgproc::guidedFilter(bgr, mask, guided, 2 * kRadius, kEpsilon);
-  const cv::Mat disc = BandElement(kRadius);
-  cv::erode(mask, inside, disc);
-  cv::dilate(mask, outside, disc);
-  guided.setTo(255, inside);
-  guided.setTo(0, outside == 0);
-  cv::resize(guided, full, photo, 0, 0, cv::INTER_LINEAR);
-  return full;
 }
 
 bool HasLabel(const cv::Mat& trimap, int label) {
@@ -103,7 +77,8 @@ cv::Mat FindForegroundByNetwork(const core::Image& photo, SalientNetwork* networ
     cv::grabCut(bgr, trimap, cv::Rect(), background_model, foreground_model,
                 options.grabcut_iterations, cv::GC_INIT_WITH_MASK);
   }
-  return RefinedEdges(bgr, GrabCutForeground(trimap), cv::Size(photo.width, photo.height));
+  constexpr int kReach = 2;
+  return RefineMatte(PhotoInBgr(photo), GrabCutForeground(trimap), kReach);
 }
 
 }  // namespace simwright::asset_lift
