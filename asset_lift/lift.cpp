@@ -206,6 +206,22 @@ ElevationEstimate LearnedElevation(const ShapePrior& shape, const LiftedMesh& li
   return estimate;
 }
 
+// Returns the focal length at which the walls of a solid of revolution are straight, where the
+// assumed one makes them taper slightly; else the assumed one.
+double WithStraightWalls(double focal, const LiftOptions& options, LiftedMesh* lifted) {
+  if (options.field_of_view > 0.0 || options.focal_35mm > 0.0) return focal;
+  const double elevation = std::clamp(lifted->elevation.elevation, 0.03, 1.5);
+  const std::optional<double> straight = StraightWallFocal(lifted->matte, focal, elevation);
+  if (!straight) return focal;
+  const double longer = std::max(lifted->photo.width, lifted->photo.height);
+  const double degrees = 2.0 * std::atan(0.5 * longer / *straight) * 180.0 / M_PI;
+  AddFinding("camera",
+             "field of view " + std::to_string(std::lround(degrees)) +
+                 " degrees, at which its walls are straight",
+             *straight, lifted);
+  return *straight;
+}
+
 void PlaceCamera(double focal, const CategoryPrior& prior, const ShapePrior* shape,
                  const LiftOptions& options, LiftedMesh* lifted) {
   lifted->elevation = EstimateElevation(lifted->matte, prior);
@@ -216,6 +232,7 @@ void PlaceCamera(double focal, const CategoryPrior& prior, const ShapePrior* sha
   } else if (shape != nullptr) {
     lifted->elevation = Combined(lifted->elevation, LearnedElevation(*shape, *lifted, focal));
   }
+  if (prior.revolved && !prior.round) focal = WithStraightWalls(focal, options, lifted);
   // Horizontal sight lines never cross the planes of a solid of revolution's discs.
   const double elevation = std::clamp(lifted->elevation.elevation, 0.03, 1.5);
   lifted->camera = PhotoCamera(lifted->matte, focal, elevation);

@@ -264,6 +264,34 @@ ElevationEstimate RefineElevation(const Matte& matte, double focal,
   return best;
 }
 
+std::optional<double> StraightWallFocal(const Matte& matte, double focal, double elevation) {
+  constexpr double kMostTaper = 0.125, kLeastTaper = 0.01, kMostDeviation = 0.015;
+  constexpr double kShortest = 0.6, kLongest = 8.0;  // over the assumed focal length
+  constexpr int kHalvings = 7;
+  const cv::Mat mask = MaskOf(matte);
+  const auto wall_at = [&](double factor) {
+    const UprightBody body = FitUprightBody(mask, PhotoCamera(matte, factor * focal, elevation));
+    return body.radius.size() < 12 ? WallLine{0.0, 1.0} : FitWallLine(body);
+  };
+  const WallLine wall = wall_at(1.0);
+  if (wall.deviation > kMostDeviation || std::abs(wall.taper) > kMostTaper ||
+      std::abs(wall.taper) < kLeastTaper) {
+    return {};
+  }
+  // A longer focal length widens the top of what a camera sees from above.
+  double inner = 1.0, outer = wall.taper < 0.0 ? kLongest : kShortest;
+  const double outer_taper = wall_at(outer).taper;
+  if (outer_taper * wall.taper > 0.0) {
+    if (std::abs(outer_taper) > kLeastTaper) return {};
+    return outer * focal;
+  }
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = std::sqrt(inner * outer);
+    (wall_at(middle).taper * wall.taper > 0.0 ? inner : outer) = middle;
+  }
+  return std::sqrt(inner * outer) * focal;
+}
+
 InflatedShape InflateOutline(const Matte& matte, const core::Camera& camera,
                              const CategoryPrior& prior, const InflationOptions& options) {
   if (matte.right <= matte.left || matte.bottom <= matte.top) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,12 @@ InflatedShape InflateOutline(const Matte& matte, const core::Camera& camera,
 // deviation.
 ElevationEstimate RefineElevation(const Matte& matte, double focal,
                                   const ElevationEstimate& estimate);
+
+// Returns the focal length, pixels, at which the silhouette's solid of revolution has straight
+// walls: an assumed focal length turns a tumbler into a cone, since the same picture shows either.
+// Returns nothing if the walls at `focal` are curved, taper by more than an eighth or less than a
+// hundredth, or stay tapered at every focal length of a camera.
+std::optional<double> StraightWallFocal(const Matte& matte, double focal, double elevation);
 
 // Returns the intersection over union of a mesh's silhouette with the matte, from the camera.
 double SilhouetteIou(const core::TriangleMesh& mesh, const core::Camera& camera,

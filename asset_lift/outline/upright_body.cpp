@@ -239,6 +239,33 @@ bool RestoreRim(const cv::Mat& mask, const core::Camera& camera, UprightBody* bo
   return true;
 }
 
+WallLine FitWallLine(const UprightBody& body) {
+  // Feet are rounded, and discs shrink towards a rim (RestoreRim).
+  const size_t first = body.radius.size() * 15 / 100, last = body.radius.size() * 82 / 100;
+  double count = 0.0, at = 0.0, radius = 0.0, at_at = 0.0, at_radius = 0.0;
+  for (size_t level = first; level <= last; ++level) {
+    const double share = static_cast<double>(level) / static_cast<double>(body.radius.size() - 1);
+    count += 1.0;
+    at += share;
+    radius += body.radius[level];
+    at_at += share * share;
+    at_radius += share * body.radius[level];
+  }
+  WallLine line;
+  const double mean = radius / count;
+  if (!(mean > 0.0)) return {0.0, 1.0};
+  const double slope = (at_radius - at * mean) / (at_at - at * at / count);
+  double squares = 0.0;
+  for (size_t level = first; level <= last; ++level) {
+    const double share = static_cast<double>(level) / static_cast<double>(body.radius.size() - 1);
+    const double off = body.radius[level] - mean - slope * (share - at / count);
+    squares += off * off;
+  }
+  line.taper = slope / mean;
+  line.deviation = std::sqrt(squares / count) / mean;
+  return line;
+}
+
 cv::Mat Silhouette(const UprightBody& body, const core::Camera& camera) {
   cv::Mat mask = cv::Mat::zeros(camera.height, camera.width, CV_8U);
   constexpr int kSides = 64;

@@ -37,6 +37,14 @@ UprightBody FitUprightBody(const cv::Mat& mask, const core::Camera& camera);
 // Returns true if there was such a shoulder.
 bool RestoreRim(const cv::Mat& mask, const core::Camera& camera, UprightBody* body);
 
+// The line through a body's radii between its foot and its rim.
+struct WallLine {
+  double taper = 0.0;      // the radius gained over the height, over the mean radius
+  double deviation = 0.0;  // root mean square, over the mean radius
+};
+// Requires a body with at least 12 levels.
+WallLine FitWallLine(const UprightBody& body);
+
 // Returns the CV_8U mask of the body's silhouette.
 cv::Mat Silhouette(const UprightBody& body, const core::Camera& camera);
 

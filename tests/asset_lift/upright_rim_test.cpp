@@ -2,6 +2,7 @@
 // slightly too low, no bulge if a handle widens the silhouette on one side.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <opencv2/imgproc.hpp>
@@ -65,6 +66,47 @@ TEST(UprightRim, WhatNarrowsTowardsItsTopStaysSo) {
   UprightBody body = FitUprightBody(mask, CameraAt(20.0));
   RestoreRim(mask, CameraAt(20.0), &body);
   EXPECT_NEAR(RadiusAtShare(body, 0.97) / RadiusAtShare(body, 0.03), 0.53, 0.06);
+}
+
+// The mask of a body as a matte, seen at 20 degrees with a focal length, pixels.
+Matte MatteOfBody(const UprightBody& body, double focal) {
+  Matte matte;
+  matte.alpha = core::Image(kSide, kSide, 1);
+  matte.left = matte.top = kSide / 4;
+  matte.right = matte.bottom = kSide - kSide / 4;
+  const cv::Mat mask = Silhouette(body, PhotoCamera(matte, focal, 20.0 * kDegree));
+  for (int y = 0; y < kSide; ++y) std::copy_n(mask.ptr(y), kSide, matte.alpha.At(0, y));
+  const cv::Rect box = cv::boundingRect(mask);
+  matte.left = box.x, matte.top = box.y;
+  matte.right = box.x + box.width, matte.bottom = box.y + box.height;
+  return matte;
+}
+
+// The body of the tests, its radius at the top over that at the bottom, scaled to look equally
+// large at another focal length.
+UprightBody TaperedBody(double top_over_bottom, double scale) {
+  UprightBody body = UprightRimCylinder();
+  body.bottom *= scale;
+  body.step *= scale;
+  for (size_t i = 0; i < body.radius.size(); ++i) {
+    body.radius[i] *= scale * (1.0 + (top_over_bottom - 1.0) * static_cast<double>(i) / 59.0);
+  }
+  return body;
+}
+
+TEST(StraightWalls, GiveTheFocalLengthOfATumblersPhoto) {
+  constexpr double kAssumed = 760.0;
+  for (const double true_focal : {600.0, 1500.0, 3000.0}) {
+    const Matte matte = MatteOfBody(TaperedBody(1.0, kAssumed / true_focal), true_focal);
+    const auto found = StraightWallFocal(matte, kAssumed, 20.0 * kDegree);
+    ASSERT_TRUE(found) << true_focal;
+    EXPECT_NEAR(std::log(*found / true_focal), 0.0, std::log(1.5)) << true_focal;
+  }
+  // A focal length that is right is kept, and so is a cone.
+  EXPECT_FALSE(
+      StraightWallFocal(MatteOfBody(TaperedBody(1.0, 1.0), kAssumed), kAssumed, 20.0 * kDegree));
+  EXPECT_FALSE(
+      StraightWallFocal(MatteOfBody(TaperedBody(0.75, 1.0), kAssumed), kAssumed, 20.0 * kDegree));
 }
 
 TEST(UprightRim, AHandleDoesNotWidenTheWall) {
