@@ -127,7 +127,8 @@ void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const L
   }
   const bool learned = prediction && !prediction->box.isEmpty();
   const InitialShape guess =
-      learned ? InitialShapeFrom(*prediction) : InitialShapeFrom(outline.mesh);
+      learned ? WithMissingParts(InitialShapeFrom(*prediction), lifted->matte, lifted->camera)
+              : InitialShapeFrom(outline.mesh);
   lifted->start =
       learned ? "the learned prior" : std::string("the silhouette, ") + Name(outline.form);
   std::unique_ptr<ScoreDistillation> in_field, in_mesh;

@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "asset_lift/camera/depth_map.h"
+#include "asset_lift/multi_view/visual_hull.h"
+#include "asset_lift/outline/missing_parts.h"
 #include "asset_lift/outline/outline_field.h"
 #include "asset_lift/outline/upright_body.h"
 #include "core/error.h"
@@ -17,38 +19,6 @@
 
 namespace simwright::asset_lift {
 namespace {
-
-cv::Mat MaskOf(const Matte& matte) {
-  cv::Mat mask(matte.alpha.height, matte.alpha.width, CV_8U);
-  for (int y = 0; y < mask.rows; ++y) {
-    for (int x = 0; x < mask.cols; ++x) {
-      mask.at<uchar>(y, x) = matte.alpha.At(x, y)[0] > 127 ? 255 : 0;
-    }
-  }
-  return mask;
-}
-
-// Returns the part of the mask that the solid of revolution does not cover, without specks: a
-// handle, a spout, a rim that is not quite round. It is dilated into the body so that the parts
-// join.
-cv::Mat Residual(const cv::Mat& mask, const cv::Mat& body, double width) {
-  cv::Mat rest = mask & ~body;
-  cv::Mat opened;
-  cv::morphologyEx(rest, opened, cv::MORPH_OPEN, cv::Mat::ones(3, 3, CV_8U));
-  cv::Mat labels, stats, centroids;
-  const int count = cv::connectedComponentsWithStats(opened, labels, stats, centroids, 8);
-  cv::Mat kept = cv::Mat::zeros(mask.size(), CV_8U);
-  const double smallest = 0.001 * cv::countNonZero(mask);
-  for (int label = 1; label < count; ++label) {
-    if (stats.at<int>(label, cv::CC_STAT_AREA) > smallest) kept.setTo(255, labels == label);
-  }
-  if (cv::countNonZero(kept) == 0) return kept;
-  const int reach = std::max(3, static_cast<int>(0.07 * width));
-  cv::Mat grown;
-  cv::dilate(kept, grown,
-             cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * reach + 1, 2 * reach + 1)));
-  return grown & mask;
-}
 
 double InflationReach(const core::TriangleMesh& mesh, const Eigen::Vector3d& direction) {
   double reach = -1e300;
@@ -90,7 +60,11 @@ class Inflater {
  public:
   Inflater(const Matte& matte, const core::Camera& camera, const CategoryPrior& prior,
            const InflationOptions& options)
-      : matte_(matte), camera_(camera), prior_(prior), options_(options), mask_(MaskOf(matte)) {}
+      : matte_(matte),
+        camera_(camera),
+        prior_(prior),
+        options_(options),
+        mask_(MaskOfMatte(matte)) {}
 
   InflatedShape Inflate() const {
     std::vector<InflatedShape> shapes;
@@ -129,7 +103,8 @@ class Inflater {
     if (prior_.open && !prior_.round) {
       field.HollowUprightBody(body, 2.0 * body.MaxRadius() * options_.wall_ratio);
     }
-    const cv::Mat rest = Residual(mask_, Silhouette(body, camera_), matte_.right - matte_.left);
+    const cv::Mat rest =
+        UncoveredParts(mask_, Silhouette(body, camera_), matte_.right - matte_.left);
     if (cv::countNonZero(rest) > 0) {
       field.AddDepthMap(PoissonDepth(rest), {body.axis_x, body.axis_y, 0.0});
     }
@@ -141,7 +116,8 @@ class Inflater {
     for (int lowered = 0; lowered < 4 && shape.silhouette_iou < 0.97; ++lowered) {
       const double spare = 0.025 * lowered * (body.top() - body.bottom);
       field.Cut(-Eigen::Vector3d::UnitZ(), -(body.bottom - spare));
-      shape = Finish(ShapeForm::kUpright, field.Extract(options_.resolution), mirror);
+      shape =
+          Finish(ShapeForm::kUpright, LargeComponents(field.Extract(options_.resolution)), mirror);
     }
     return shape;
   }
@@ -237,7 +213,7 @@ double SilhouetteIou(const core::TriangleMesh& mesh, const core::Camera& camera,
 
 ElevationEstimate RefineElevation(const Matte& matte, double focal,
                                   const ElevationEstimate& estimate) {
-  const cv::Mat mask = MaskOf(matte);
+  const cv::Mat mask = MaskOfMatte(matte);
   constexpr double kStep = 0.06;  // rad
   ElevationEstimate best = estimate;
   double best_score = -1e300;
@@ -268,7 +244,7 @@ std::optional<double> StraightWallFocal(const Matte& matte, double focal, double
   constexpr double kMostTaper = 0.125, kLeastTaper = 0.01, kMostDeviation = 0.015;
   constexpr double kShortest = 0.6, kLongest = 8.0;  // over the assumed focal length
   constexpr int kHalvings = 7;
-  const cv::Mat mask = MaskOf(matte);
+  const cv::Mat mask = MaskOfMatte(matte);
   const auto wall_at = [&](double factor) {
     const UprightBody body = FitUprightBody(mask, PhotoCamera(matte, factor * focal, elevation));
     return body.radius.size() < 12 ? WallLine{0.0, 1.0} : FitWallLine(body);

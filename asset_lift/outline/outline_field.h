@@ -36,9 +36,13 @@ class OutlineField {
   // bodies' AABB. Throws core::Error where the solid is empty.
   core::TriangleMesh Extract(int resolution) const;
 
- private:
+  // Returns the field at a world point. Requires an added body.
   double Value(const Eigen::Vector3d& point) const;
+  bool empty() const { return bodies_.empty(); }
+  // Returns the world AABB of the bodies.
+  const Eigen::AlignedBox3d& box() const { return box_; }
 
+ private:
   core::Camera camera_;
   cv::Mat edge_distance_;  // pixels, positive inside
   std::vector<std::function<double(const Eigen::Vector3d&)>> bodies_;

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <memory>
 
+#include "asset_lift/multi_view/visual_hull.h"
+#include "asset_lift/outline/missing_parts.h"
 #include "core/error.h"
+#include "core/parallel.h"
+#include "geometry/isosurface.h"
 #include "geometry/triangle_tree.h"
 #include "geometry/voxel_solid.h"
 
@@ -40,6 +44,37 @@ InitialShape InitialShapeFrom(const core::TriangleMesh& mesh) {
                                           : -kCertainLogOdds * distance;
   };
   return guess;
+}
+
+InitialShape WithMissingParts(InitialShape shape, const Matte& matte, const core::Camera& camera) {
+  constexpr int kCells = 104;
+  const OutlineField parts = MissingParts(shape.surface, matte, camera);
+  if (parts.empty()) return shape;
+  const double sure_at = shape.box.diagonal().norm() / 40.0;
+  shape.box.extend(parts.box());
+  shape.odds = [before = shape.odds, parts, sure_at](const Eigen::Vector3d& point) {
+    const double part = std::clamp(-parts.Value(point) / sure_at, -1.0, 1.0) * kCertainLogOdds;
+    return std::max(before(point), part);
+  };
+  geometry::ScalarGrid grid;
+  grid.cell = shape.box.sizes().maxCoeff() / kCells;
+  grid.origin = shape.box.min() - Eigen::Vector3d::Constant(2.5 * grid.cell);
+  const Eigen::Vector3i nodes = (shape.box.sizes() / grid.cell).array().ceil().cast<int>() + 6;
+  grid.nx = nodes.x();
+  grid.ny = nodes.y();
+  grid.nz = nodes.z();
+  grid.values.resize(static_cast<size_t>(grid.nx) * grid.ny * grid.nz);
+  core::ParallelFor(grid.nz, [&](int k) {
+    for (int j = 0; j < grid.ny; ++j) {
+      for (int i = 0; i < grid.nx; ++i) {
+        grid.values[grid.Index(i, j, k)] =
+            static_cast<float>(-shape.odds(grid.origin + grid.cell * Eigen::Vector3d(i, j, k)));
+      }
+    }
+  });
+  shape.surface = LargeComponents(geometry::ExtractIsosurface(grid, 0.0f));
+  shape.box = core::Bounds(shape.surface);
+  return shape;
 }
 
 InitialShape InitialEllipsoid(const ViewFrame& frame, const Eigen::Vector2d& half_axes_uv) {

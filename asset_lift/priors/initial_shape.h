@@ -5,6 +5,8 @@
 #include <functional>
 
 #include "asset_lift/priors/shape_prior.h"
+#include "asset_lift/segmentation/segmentation.h"
+#include "core/camera.h"
 #include "core/mesh.h"
 
 namespace simwright::asset_lift {
@@ -23,6 +25,11 @@ InitialShape InitialShapeFrom(const ShapePrediction& prediction);
 // Converts a closed mesh: the log odds follow the signed distance and reach 4 at 1/40 of the
 // diagonal.
 InitialShape InitialShapeFrom(const core::TriangleMesh& mesh);
+
+// Adds the parts of the matte that the shape leaves uncovered (outline/missing_parts.h): a prior
+// that sees 64 pixels a side drops handles and knobs. Returns the shape unchanged where nothing is
+// missing.
+InitialShape WithMissingParts(InitialShape shape, const Matte& matte, const core::Camera& camera);
 
 // Returns an ellipsoid that fills the silhouette: the initial shape without prior knowledge.
 // `frame` locates the silhouette.
