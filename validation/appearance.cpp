@@ -75,14 +75,18 @@ constexpr LookLimits kSymmetry{{1.0, 2.0, 4.0}, false};
 constexpr LookLimits kTexture{{0.7, 0.5, 0.3}, true};
 constexpr LookLimits kHiddenTexture{{0.5, 0.3, 0.15}, true};
 
-const char kMorePhotos[] = "photograph it from all sides on a printed mat (simwright mat)";
+// Returns what would make a surface better.
+std::string BetterSurface(const AssetPhoto& photo) {
+  return photo.one_of_many ? "take more photos, also from low and from high (docs/capture.md)"
+                           : "photograph it from all sides on a printed mat (simwright mat)";
+}
 
-void AddShape(const assets::Asset& asset, Judgement* judgement) {
+void AddShape(const assets::Asset& asset, const AssetPhoto& photo, Judgement* judgement) {
   const core::TriangleMesh& mesh = asset.visual.mesh;
   const double diagonal = core::Bounds(mesh).diagonal().norm();
   judgement->Add("fairness", geometry::MeasureFairness(mesh).typical_deviation * kDegreesPerRadian,
                  kFairness, "degrees between the surface's normals and the mean around them",
-                 "the surface is uneven", kMorePhotos);
+                 "the surface is uneven", BetterSurface(photo));
   const physics_params::Category* category =
       physics_params::KnowledgeBase::Shipped().FindCategory(asset.parameters.category);
   if (category != nullptr && category->shape == physics_params::Shape::kBox) {
@@ -92,8 +96,10 @@ void AddShape(const assets::Asset& asset, Judgement* judgement) {
     }
     judgement->Add("flat-faces", 100.0 * worst / diagonal, kFlatFaces,
                    "% of the diagonal between the worst flat face and a plane", "flat faces bulge",
-                   kMorePhotos);
+                   BetterSurface(photo));
   }
+  // What is seen from all sides may be as crooked as it looks.
+  if (photo.one_of_many) return;
   judgement->Add("symmetry", 100.0 * geometry::FindMirrorSymmetry(mesh).difference / diagonal,
                  kSymmetry, "% of the diagonal between one side and the other, mirrored",
                  "its two sides differ", "add photos of the side that is hidden");
@@ -121,7 +127,7 @@ Appearance JudgeAppearance(const assets::Asset& asset, const AssetPhoto& photo) 
                 "intersection over union of the outline and the photo's",
                 "its outline differs from the photo's",
                 "check matte.png: give the outline with --mask, or a --segmenter");
-  AddShape(asset, &judgement);
+  AddShape(asset, photo, &judgement);
   if (agreement.textured) {
     judgement.Add("texture", agreement.texture_contrast, kTexture,
                   "of the photo's contrast between neighbouring pixels, seen from its camera",

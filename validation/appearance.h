@@ -29,7 +29,7 @@ struct Appearance {
 // degrees; "flat-faces": of a category whose shape is a box, the distance of the faces' points from
 // planes,
 //   root mean square of the worst face, percent of the diagonal;
-// "symmetry": the mean difference between both sides, percent of the diagonal;
+// "symmetry": the mean difference between both sides, percent of the diagonal; of one photo alone;
 // "texture": the contrast between neighbouring pixels from the photo's camera, over the photo's;
 // "hidden-texture": the same from behind, over that from the front. The last two are left out for
 // plain objects.

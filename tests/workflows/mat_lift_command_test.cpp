@@ -81,6 +81,17 @@ TEST_F(MatLift, GivesTheTrueSizeTheCamerasAndAnAssetThatPasses) {
   EXPECT_TRUE(fs::exists(asset / "capture.html"));
   const Outcome check = RunProgram("check " + asset.string() + " --quiet");
   EXPECT_EQ(check.code, 0) << check.text;
+  // The exported files say how it looks; the lift said the same.
+  const Outcome looks = RunProgram("check " + asset.string() + " --json");
+  const core::JsonDocument report(looks.text, "check", "");
+  const core::JsonField appearance = report.root()["reports"].Elements().at(0)["appearance"];
+  EXPECT_GT(appearance["measures"].Elements().at(0)["figure"].Number(), 0.9);
+  const std::string sentence = "it looks " + appearance["grade"].Text();
+  int said = 0;
+  for (const core::Finding& finding : assets::ReadAsset(asset).findings) {
+    said += finding.code == "appearance" && finding.sentence.starts_with(sentence);
+  }
+  EXPECT_EQ(said, 1) << sentence;
 }
 
 TEST_F(MatLift, RefusesTooFewPhotosAndAHeightThatTheMatContradicts) {
