@@ -81,28 +81,43 @@ int WeldRoot(std::vector<int>& parent, int x) {
 }  // namespace
 
 core::TriangleMesh Weld(const core::TriangleMesh& mesh, double tolerance) {
+  return WeldWithOrigin(mesh, tolerance).mesh;
+}
+
+WeldedMesh WeldWithOrigin(const core::TriangleMesh& mesh, double tolerance) {
   core::RequireValid(mesh, "weld");
   const std::vector<int> to = tolerance > 0.0 ? NearRepresentatives(mesh.vertices, tolerance)
                                               : ExactRepresentatives(mesh.vertices);
   std::vector<Eigen::Vector3i> triangles;
+  std::vector<int> sources;  // of `triangles`
   std::vector<std::pair<std::array<int, 3>, int>> keyed;
-  for (const Eigen::Vector3i& t : mesh.triangles) {
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Eigen::Vector3i& t = mesh.triangles[f];
     const Eigen::Vector3i mapped(to[t[0]], to[t[1]], to[t[2]]);
     if (mapped[0] == mapped[1] || mapped[1] == mapped[2] || mapped[2] == mapped[0]) continue;
     std::array<int, 3> key = {mapped[0], mapped[1], mapped[2]};
     std::sort(key.begin(), key.end());
     keyed.emplace_back(key, static_cast<int>(triangles.size()));
     triangles.push_back(mapped);
+    sources.push_back(static_cast<int>(f));
   }
   std::sort(keyed.begin(), keyed.end());
-  std::vector<char> keep(triangles.size(), 0);
+  std::vector<int> first(triangles.size());  // of the faces with the same vertices
   for (std::size_t i = 0; i < keyed.size(); ++i) {
-    keep[keyed[i].second] = i == 0 || keyed[i].first != keyed[i - 1].first;
+    const bool repeats = i > 0 && keyed[i].first == keyed[i - 1].first;
+    first[keyed[i].second] = repeats ? first[keyed[i - 1].second] : keyed[i].second;
   }
-  core::TriangleMesh welded;
+  WeldedMesh result;
+  core::TriangleMesh& welded = result.mesh;
+  result.face_of.assign(mesh.triangles.size(), -1);
   std::vector<int> index(mesh.vertices.size(), -1);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (!keep[t]) continue;
+    // The first of equal faces comes first, so that its face here is known.
+    if (first[t] != static_cast<int>(t)) {
+      result.face_of[sources[t]] = result.face_of[sources[first[t]]];
+      continue;
+    }
+    result.face_of[sources[t]] = static_cast<int>(welded.triangles.size());
     Eigen::Vector3i corner;
     for (int c = 0; c < 3; ++c) {
       int& at = index[triangles[t][c]];
@@ -114,7 +129,7 @@ core::TriangleMesh Weld(const core::TriangleMesh& mesh, double tolerance) {
     }
     welded.triangles.push_back(corner);
   }
-  return welded;
+  return result;
 }
 
 std::vector<EdgeUse> SortedEdgeUses(const core::TriangleMesh& mesh) {

@@ -11,6 +11,15 @@ namespace simwright::geometry {
 // triangles that repeat a vertex or another triangle's three (in either orientation).
 core::TriangleMesh Weld(const core::TriangleMesh& mesh, double tolerance);
 
+// The same, with the origin of its faces.
+struct WeldedMesh {
+  core::TriangleMesh mesh;
+  // (faces of the input) the index of its face here; a repeated face has that of the one that was
+  // kept, a face that repeats a vertex has -1.
+  std::vector<int> face_of;
+};
+WeldedMesh WeldWithOrigin(const core::TriangleMesh& mesh, double tolerance);
+
 // Returns the same triangles without the unused vertices.
 core::TriangleMesh WithoutUnusedVertices(const core::TriangleMesh& mesh);
 
