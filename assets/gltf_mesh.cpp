@@ -60,7 +60,7 @@ class GltfReader {
       : document_(path),
         findings_(*findings),
         vertices_(&raw_.mesh.mesh),
-        materials_(document_, &raw_.mesh, findings) {
+        materials_(document_, &raw_.mesh, &raw_.look, findings) {
     raw_.up = 'y';
     raw_.colors_multiply = true;
   }
@@ -73,6 +73,7 @@ class GltfReader {
     Walk(roots);
     for (const size_t node : order_) AddNode(node);
     if (!any_uv_) raw_.mesh.corner_uvs.clear();
+    if (!materials_.states_look()) raw_.look = {};
     if (any_outside_) {
       findings_.Add(core::Severity::kInfo, "texture-wraps",
                     "a texture that its file clamps or mirrors at its edges is repeated instead",
@@ -253,7 +254,8 @@ void GltfReader::AddPrimitive(const GltfPrimitive& primitive, const GltfMaterial
     document_.Fail("the mesh has more than 20 million faces", "decimate it first");
   }
   const bool mirrored = placed.linear().determinant() < 0.0;
-  const bool textured = mesh.materials[static_cast<size_t>(material.index)].texture >= 0;
+  const size_t index = static_cast<size_t>(material.index);
+  const bool textured = mesh.materials[index].texture >= 0 || raw_.look.materials[index].HasMaps();
   for (size_t i = 0; i + 2 < primitive.triangles.size(); i += 3) {
     std::uint32_t corners[3] = {primitive.triangles[i], primitive.triangles[i + 1],
                                 primitive.triangles[i + 2]};

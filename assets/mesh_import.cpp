@@ -1,8 +1,10 @@
 #include "assets/mesh_import.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "assets/assimp_mesh.h"
+#include "assets/broken_faces.h"
 #include "assets/gltf_mesh.h"
 #include "assets/mesh_format.h"
 #include "assets/ply_mesh.h"
@@ -26,6 +28,20 @@ void ShowInvisibleMaterials(core::TexturedMesh* mesh, FindingList* findings) {
     findings->Add(core::Severity::kWarning, "material-invisible",
                   "material '" + material.name + "' is fully transparent: it is made opaque",
                   "correct its opacity in the file (MTL: d 1), or delete what should be invisible");
+  }
+}
+
+// Omits the maps of materials whose texture coordinates the painting of vertex colours replaced.
+void DropReplacedMaps(const std::vector<core::Material>& stated, RawMesh* raw,
+                      FindingList* findings) {
+  for (size_t m = 0; m < std::min(stated.size(), raw->look.materials.size()); ++m) {
+    PbrMaterial& pbr = raw->look.materials[m];
+    if (stated[m].texture == raw->mesh.materials[m].texture || !pbr.HasMaps()) continue;
+    pbr.metallic_map = pbr.roughness_map = pbr.normal_map = -1;
+    findings->Add(core::Severity::kInfo, "gltf-maps-not-read",
+                  "material '" + stated[m].name +
+                      "' has vertex colours: its maps of metal, roughness and normals are ignored",
+                  "bake the colours into a texture");
   }
 }
 
@@ -64,10 +80,13 @@ MeshFile ReadMeshFile(const fs::path& path) {
                       "export its surface: points and lines have none (convert a point cloud to a "
                       "mesh first, in MeshLab or CloudCompare)");
   }
+  DropBrokenFaces(&raw, &findings);
+  const std::vector<core::Material> stated = raw.mesh.materials;
   ApplyVertexColors(&raw, &findings);
+  DropReplacedMaps(stated, &raw, &findings);
   ShowInvisibleMaterials(&raw.mesh, &findings);
   core::RequireValid(raw.mesh, path.string());
-  return {std::move(raw.mesh), raw.up, findings.Take()};
+  return {std::move(raw.mesh), raw.up, findings.Take(), std::move(raw.look)};
 }
 
 core::TexturedMesh ReadMesh(const fs::path& path) {

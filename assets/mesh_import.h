@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "assets/pbr_look.h"
 #include "core/finding.h"
 #include "core/mesh.h"
 
@@ -15,6 +16,8 @@ struct MeshFile {
   char up = 0;
   // The content that was not read, found elsewhere or guessed, each with its remedy.
   core::Findings findings;
+  // What the file states of its materials beyond the base colour (glTF).
+  PbrLook look = {};
 };
 
 // Reads OBJ, PLY, STL, glTF 2.0, GLB and DAE (docs/formats.md lists the supported content).
@@ -23,8 +26,8 @@ struct MeshFile {
 // repeated indices are dropped. No name in the file may lead out of its folder, except to a texture
 // folder beside it (`FindTextureFile`); missing or unreadable files are findings. Throws
 // core::Error if the file is missing, of another format (named, with a remedy), damaged, compressed
-// with an unsupported method, without faces, with non-finite coordinates, or has more than 20
-// million faces.
+// with an unsupported method, without faces, has more than 20 million faces, or where more than a
+// twentieth of the faces have coordinates that are not finite (fewer are left out, with a finding).
 MeshFile ReadMeshFile(const std::filesystem::path& path);
 
 // Returns the mesh of ReadMeshFile alone.

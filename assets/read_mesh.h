@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "assets/pbr_look.h"
 #include "core/finding.h"
 #include "core/mesh.h"
 
@@ -22,6 +23,7 @@ constexpr int kMaxTextureSide = 4096;  // the size that every GPU and simulator 
 // A mesh under construction, before corner colours become materials or a texture.
 struct RawMesh {
   core::TexturedMesh mesh;
+  PbrLook look;
   // (3 M) if the file has vertex or face colours, otherwise empty. White for parts without colours.
   std::vector<CornerColor> corner_colors;
   // True if these colours multiply the material's (glTF), false if they replace it (OBJ, PLY, STL,
