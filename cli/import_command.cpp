@@ -98,6 +98,8 @@ int PrintOutcomes(const std::vector<workflows::ImportOutcome>& outcomes,
   const int refused = CountRefused(outcomes);
   if (one && !common.quiet) {
     std::printf("picture: %s\n", (outcomes[0].folder / "preview.png").c_str());
+    const std::filesystem::path page = outcomes[0].folder / "import.html";
+    if (std::filesystem::exists(page)) std::printf("report:  %s\n", page.c_str());
   } else if (!one) {
     std::printf("%zu imported, %d refused\n", outcomes.size() - static_cast<size_t>(refused),
                 refused);
@@ -138,6 +140,7 @@ void AddImport(CLI::App* app, CommonOptions* common, Run* run) {
       app->add_subcommand("import", "Import meshes, URDFs and catalogues as assets");
   command->footer(
       "Example:\n  simwright import chair.glb --category chair -o assets\n"
+      "  simwright import generated.glb --category mug --report -o assets\n"
       "  simwright import BlendSwap-CC-0.sh3f --only cup -o cups\n"
       "  simwright import partnet/45267 --height 0.8 -o cabinets\n"
       "Folders of PartNet-Mobility and GAPartNet, and other URDFs with joints, become "
@@ -174,6 +177,9 @@ void AddImport(CLI::App* app, CommonOptions* common, Run* run) {
       ->default_str("all");
   command->add_flag("--resume", flags->options.resume,
                     "Keep existing assets and import the others");
+  command->add_flag("--report", flags->options.report,
+                    "Write import.html into each asset's folder: what was found and done, with "
+                    "numbers and pictures before and after");
   command->add_flag("--no-check", flags->no_check, "Write assets without checking them");
   AddCommon(command, common);
   AddForce(command, common);

@@ -14,7 +14,7 @@
 #include "assets/asset_folder.h"
 #include "assets/furniture_catalogue.h"
 #include "assets/mesh_format.h"
-#include "assets/mesh_import.h"
+#include "assets/pbr_look.h"
 #include "assets/semantic_model.h"
 #include "assets/urdf_meshes.h"
 #include "core/error.h"
@@ -24,9 +24,9 @@
 #include "importers/articulated_import.h"
 #include "importers/catalogue_meshes.h"
 #include "importers/import_category.h"
-#include "importers/link_shapes.h"
 #include "importers/rigid_urdf.h"
-#include "importers/up_axis.h"
+#include "workflows/import/import_report.h"
+#include "workflows/import/mesh_reading.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
@@ -145,71 +145,6 @@ std::string MeantBy(const ImportItem& item, const assets::SemanticModel* source)
   return source->category.empty() ? source->name : source->category;
 }
 
-// Returns a URDF without moving joints as one mesh in the file's units.
-core::TexturedMesh RigidUrdfMesh(const fs::path& urdf, const assets::UrdfModel& model,
-                                 core::Findings* findings) {
-  for (core::Finding finding : model.findings) {
-    if (finding.code == "urdf-no-inertial") continue;  // it is recomputed
-    if (finding.place == urdf.string()) finding.place = urdf.filename().string();
-    findings->push_back(finding);
-  }
-  if (std::any_of(model.links.begin(), model.links.end(), importers::HasOwnCollisions)) {
-    findings->push_back(
-        {"urdf-collisions-left-out", core::Severity::kInfo, urdf.filename().string(),
-         "its collision shapes are ignored: parts are computed from the visuals", 0.0});
-  }
-  findings->push_back({"urdf-rigid", core::Severity::kInfo, urdf.filename().string(),
-                       "no joint moves: it becomes one rigid object", 0.0});
-  return importers::RigidVisual(model, findings);
-}
-
-// Scales a mesh of arbitrary scale to the size sampled for its category.
-void ScaleToCategory(const physics_params::Category& category, const ImportOptions& options,
-                     const fs::path& mesh_path, core::TriangleMesh* mesh,
-                     core::Findings* findings) {
-  const physics_params::PhysicalParameters sampled = physics_params::SampleParameters(
-      category, physics_params::KnowledgeBase::Shipped(), options.seed);
-  const double scale = asset_build::ScaleToSampledSize(sampled, *mesh, mesh_path.string());
-  core::Transform(Eigen::Affine3d(Eigen::Scaling(scale)), mesh);
-  const std::string place = options.source.empty() ? mesh_path.filename().string() : options.source;
-  findings->push_back(
-      asset_build::SizeDrawn(category, asset_build::GroundBoxOf(*mesh).sides, place));
-}
-
-// Reads the mesh of an item in world coordinates: metres, z up, at its stated size. Of `urdf`, if
-// given, returns all visuals with joints at zero.
-core::TexturedMesh ReadInWorld(const fs::path& mesh_path, const assets::UrdfModel* urdf,
-                               const physics_params::Category& category,
-                               const ImportOptions& options, core::Findings* findings) {
-  assets::MeshFile file;
-  if (urdf != nullptr) {
-    file.mesh = RigidUrdfMesh(mesh_path, *urdf, findings);
-    file.up = 'z';
-  } else {
-    file = assets::ReadMeshFile(mesh_path);
-  }
-  findings->insert(findings->end(), file.findings.begin(), file.findings.end());
-  core::TexturedMesh mesh = std::move(file.mesh);
-  char up = options.up != 0 ? options.up : file.up;
-  if (up == 0) up = importers::GuessUpAxis(mesh_path, mesh.mesh, category, findings);
-  Eigen::Affine3d world_from_file = Eigen::Affine3d::Identity();
-  world_from_file.linear() = options.unit * assets::ZUpRotation(up);
-  core::Transform(world_from_file, &mesh.mesh);
-  if (options.height > 0.0) {
-    const double height = core::Bounds(mesh.mesh).sizes().z();
-    if (!(height > 0.0)) {
-      throw core::Error("a flat mesh cannot be scaled to a height", mesh_path.string(),
-                        "use --unit instead");
-    }
-    core::Transform(Eigen::Affine3d(Eigen::Scaling(options.height / height)), &mesh.mesh);
-  }
-  asset_build::ScaleToSize(options.size, mesh_path.string(), &mesh.mesh, findings);
-  if (options.sampled_size && !(options.height > 0.0) && options.size.empty()) {
-    ScaleToCategory(category, options, mesh_path, &mesh.mesh, findings);
-  }
-  return mesh;
-}
-
 // Earlier findings are kept, because they may explain the refusal.
 void RefuseItem(const core::Error& error, ImportOutcome* outcome) {
   outcome->refusal = error.what();
@@ -269,7 +204,8 @@ class Importer {
     request.seed = options_.seed;
     core::Findings& findings = outcome->findings;
     findings = options_.earlier;
-    core::TexturedMesh visual;
+    ItemMesh mesh;
+    core::TexturedMesh& visual = mesh.visual;
     if (catalogue != nullptr) {
       const assets::CataloguePiece& piece = catalogue->pieces()[static_cast<size_t>(item.piece)];
       visual = importers::ReadCataloguePiece(*catalogue, piece, &findings);
@@ -278,9 +214,8 @@ class Importer {
     } else {
       request.source = options_.source.empty() ? item.mesh.filename().string() : options_.source;
       request.category = importers::ImportCategory(options_.category, MeantBy(item, source));
-      visual = ReadInWorld(item.mesh, source != nullptr ? &source->model : nullptr,
-                           *request.category.category, options_, &findings);
-      RequireMeantSize(*request.category.category, core::Bounds(visual.mesh).sizes(), item.mesh);
+      mesh = ReadInWorld(item.mesh, source != nullptr ? &source->model : nullptr,
+                         *request.category.category, options_, &findings);
     }
     request.stated = options_.stated;
     request.volume_error = kImportedVolumeError;
@@ -294,7 +229,11 @@ class Importer {
     Keep(item, outcome, [&](const fs::path& folder) {
       assets::WriteAsset(built.asset, folder);
       core::WritePng(folder / "preview.png", asset_build::AssetPreview(built.asset));
+      assets::AddPbrLook(built.asset.visual, mesh.look, built.asset.name, folder);
       if (options_.add_files) options_.add_files(visual, folder);
+      if (!mesh.as_read.mesh.empty()) {
+        WriteImportReport({mesh.as_read, built.asset, built.seconds}, folder);
+      }
     });
   }
 
@@ -321,23 +260,6 @@ class Importer {
                          item.mesh.filename().string(), text, mass,
                          possible ? "" : "correct the file's mass, or give --mass"});
     if (possible) stated->mass = mass;
-  }
-
-  // Refuses an implausible size that is not stated, and any size that cannot be simulated.
-  void RequireMeantSize(const physics_params::Category& category, const Eigen::Vector3d& sides,
-                        const fs::path& mesh) const {
-    const bool stated = options_.unit_stated || options_.sampled_size || options_.height > 0.0 ||
-                        !options_.size.empty();
-    if (!stated) {
-      const double most = IsUrdf(mesh) ? asset_build::kAbsurdUrdf : physics_params::kAbsurdFactor;
-      asset_build::RequirePlausibleSize(category, sides, options_.unit, mesh.string(), most);
-    }
-    const double longest = sides.maxCoeff();
-    if (longest >= 1e-4 && longest <= 100.0) return;
-    char text[120];
-    std::snprintf(text, sizeof(text), "the mesh is %.3g m across", longest);
-    throw core::Error(text, mesh.string(),
-                      "0.1 mm to 100 m can be simulated: correct --unit, --height or --size");
   }
 
   // Writes the asset and keeps it if it passes its check.

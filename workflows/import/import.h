@@ -31,6 +31,7 @@ struct ImportOptions {
   bool force = false;   // replaces existing outputs
   bool resume = false;  // keeps existing outputs and imports the others
   bool check = true;    // checks each asset and refuses one that fails
+  bool report = false;  // writes import.html beside each rigid asset: what was found and done
   std::string only;     // catalogues: imports pieces whose id or name contains this
   int limit = 0;        // catalogues: the maximum number of pieces; 0: all
   // For a mesh that another step made: the source in asset.json (empty: the file's name), the
@@ -71,9 +72,10 @@ std::vector<ImportItem> ListImports(const std::vector<std::filesystem::path>& in
 
 // Imports all items in parallel, each into output/NAME. A mesh that cannot become an asset is
 // refused with its reason and does not stop the others. Catalogue pieces have the catalogue's true
-// sizes; any other size that is implausible for its category is refused, with a remedy, unless the
-// user states it. After Ctrl-C, finished assets are kept and the others are refused as stopped.
-// Throws core::Error if an output exists and neither `force` nor `resume` is set.
+// sizes. Unless the user states a size, a mesh of a size that is implausible for its category is
+// scaled (importers/file_scale.h), with a warning, and a URDF of such a size is refused. After
+// Ctrl-C, finished assets are kept and the others are refused as stopped. Throws core::Error if an
+// output exists and neither `force` nor `resume` is set.
 std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items,
                                      const std::filesystem::path& output,
                                      const ImportOptions& options, core::Progress* progress);

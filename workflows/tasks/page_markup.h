@@ -18,6 +18,7 @@ std::string_view task_drawing_svg();
 std::string_view photo_run_html();
 std::string_view photo_run_css();
 std::string_view capture_page_html();
+std::string_view import_page_html();
 std::string_view photo_run_trajectory_html();
 
 }  // namespace data
