@@ -16,6 +16,7 @@
 #include "geometry/surface_distance.h"
 #include "geometry/surface_wrap.h"
 #include "geometry/weld.h"
+#include "geometry/weld_components.h"
 
 namespace simwright::geometry {
 namespace {
@@ -89,6 +90,20 @@ bool TryUnchanged(const TriangleMesh& visual, const TriangleMesh& welded, double
     return true;
   }
   return false;
+}
+
+// Joins closed components that intersect.
+bool TryUnion(const TriangleMesh& welded, double diagonal, const SolidOptions& options,
+              Solid* solid) {
+  if (static_cast<double>(welded.triangles.size()) > 10.0 * options.face_budget) return false;
+  int count = 0;
+  TriangleMesh mesh = UnionOfComponents(welded, &count);
+  if (mesh.empty() || !EnclosesVolume(mesh, diagonal)) return false;
+  Add(solid, "solid-parts-joined", Severity::kInfo,
+      std::to_string(count) + " closed parts that intersect were joined into one surface", count);
+  solid->mesh = std::move(mesh);
+  solid->method = SolidMethod::kRepaired;
+  return true;
 }
 
 TriangleMesh Normalized(const TriangleMesh& mesh, const Vector3d& center, double scale) {
@@ -274,7 +289,8 @@ Solid MakeSolid(const TriangleMesh& visual, const SolidOptions& options) {
                       "check its unit and its vertices");
   }
   Solid solid;
-  if (!TryUnchanged(visual, welded, diagonal, options, &solid)) {
+  if (!TryUnchanged(visual, welded, diagonal, options, &solid) &&
+      !TryUnion(welded, diagonal, options, &solid)) {
     WrapSolid(welded, bounds.center(), diagonal, options, &solid);
   }
   return solid;

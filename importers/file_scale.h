@@ -9,7 +9,7 @@
 
 namespace simwright::importers {
 
-// What a user states of a mesh file's scale, if nothing: the file is taken for one in metres.
+// A mesh file of whose scale the user states nothing, so that it is taken for one in metres.
 struct FileScale {
   std::string place;       // of findings
   double unit = 1.0;       // m per unit of the file, as already applied

@@ -23,7 +23,8 @@ using geometry::LoopShape;
 constexpr double kSmallHole = 0.125;
 constexpr double kFlat = 0.02;  // distance from the plane
 constexpr double kBottomHeight = 0.03;
-constexpr double kCrackWidth = 0.0025;      // a cell of the grid around which a solid is wrapped
+constexpr double kClosedWidth = 2e-5;       // of cracks through which no line of sight leads
+constexpr double kCrackWidth = 0.0025;      // narrower holes are cracks, of any length
 constexpr double kVertical = 0.95;          // cosine of a normal with the vertical
 constexpr std::size_t kMostCorners = 4000;  // of a loop that need not be flat
 constexpr double kMostTriangles = 0.3;      // holes per face, of a mesh whose faces share edges
@@ -120,12 +121,15 @@ class HoleCloser {
   HoleKind KindOf(const Hole& hole) const {
     const LoopShape& shape = hole.shape;
     const double diagonal = Diagonal(hole);
-    if (2.0 * shape.area < kCrackWidth * diagonal * shape.perimeter) return HoleKind::kCrack;
-    const bool small = shape.extent < kSmallHole * diagonal && hole.loop.size() <= kMostCorners;
+    const double width = 2.0 * shape.area / shape.perimeter;
+    if (width < kClosedWidth * diagonal) return HoleKind::kCrack;
+    const bool narrow = width < kCrackWidth * diagonal;
+    const bool small =
+        (narrow || shape.extent < kSmallHole * diagonal) && hole.loop.size() <= kMostCorners;
     const bool flat = shape.flatness < kFlat * diagonal;
     const Eigen::AlignedBox3d& box = pieces_[Piece(hole)].box;
     const bool low = shape.center.z() < box.min().z() + kBottomHeight * diagonal;
-    if (flat && low && std::abs(shape.normal.z()) > kVertical) return HoleKind::kBottom;
+    if (flat && low && !narrow && std::abs(shape.normal.z()) > kVertical) return HoleKind::kBottom;
     if (small) return HoleKind::kSmall;
     return flat && closes_flat_ ? HoleKind::kFlatFace : HoleKind::kOpen;
   }

@@ -39,16 +39,16 @@ class ImportFindings : public ::testing::Test {
   const core::TemporaryFolder folder_;
 };
 
-TEST_F(ImportFindings, AnAbsurdSizeIsRefusedWithItsUnit) {
+TEST_F(ImportFindings, AnAbsurdSizeGetsTheUnitThatFits) {
   const std::string mesh = Box("crate.obj", 40, 30, 30);
-  const Outcome refused = Import(mesh + " --category crate");
-  EXPECT_EQ(refused.code, 1);
-  EXPECT_NE(refused.text.find("40 x 30 x 30 m"), std::string::npos) << refused.text;
-  EXPECT_NE(refused.text.find("--unit cm makes it 0.4 x 0.3 x 0.3 m"), std::string::npos)
-      << refused.text;
-  EXPECT_FALSE(fs::exists(folder_.path() / "out/crate"));
+  const Outcome guessed = Import(mesh + " --category crate");
+  EXPECT_EQ(guessed.code, 0) << guessed.text;
+  EXPECT_NE(guessed.text.find("40 x 30 x 30 m"), std::string::npos) << guessed.text;
+  EXPECT_NE(guessed.text.find("[unit-guessed]"), std::string::npos) << guessed.text;
+  EXPECT_NEAR(SizeOf(Read("crate")).z(), 0.3, 1e-6);
   const Outcome stated = Import(mesh + " --category crate --unit cm");
   EXPECT_EQ(stated.code, 0) << stated.text;
+  EXPECT_EQ(stated.text.find("[unit-guessed]"), std::string::npos) << stated.text;
   EXPECT_NEAR(SizeOf(Read("crate")).z(), 0.3, 1e-6);
 }
 

@@ -7,11 +7,13 @@
 
 #include "assets/primitive_meshes.h"
 #include "core/files.h"
+#include "geometry/hole_filling.h"
 #include "geometry/mesh_validity.h"
 #include "geometry/weld.h"
 #include "importers/file_scale.h"
 #include "importers/hole_closing.h"
 #include "importers/loose_faces.h"
+#include "importers/t_junctions.h"
 #include "tests/importers/damaged/damaged_corpus.h"
 #include "tests/importers/damaged/specimen_file.h"
 #include "tests/workflows/program.h"
@@ -119,21 +121,46 @@ TEST(HoleClosing, SmallHolesAndTheBottomAreClosed) {
 }
 
 // The ring on which a bowl stands is closed as a ring: the recess within it stays.
-TEST(HoleClosing, AnOpenFootRingKeepsItsRecess) {
+TEST(HoleClosing, LoopsOfOnePlaneAreClosedTogether) {
+  core::TriangleMesh outer = assets::BoxMesh({0.2, 0.2, 0.1});
+  core::TriangleMesh inner = assets::BoxMesh({0.1, 0.1, 0.1});
+  const auto loop_of = [](core::TriangleMesh* box) {
+    std::erase_if(box->triangles, [&](const Eigen::Vector3i& t) {
+      return (box->vertices[t[0]] + box->vertices[t[1]] + box->vertices[t[2]]).z() < -0.1499;
+    });
+    return geometry::BoundaryLoops(*box);
+  };
+  std::vector<geometry::BoundaryLoop> loops = loop_of(&outer);
+  ASSERT_EQ(loops.size(), 1u);
+  EXPECT_EQ(loops[0].size(), 4u);
+  EXPECT_NEAR(geometry::ShapeOf(outer.vertices, loops[0]).area, 0.04, 1e-12);
+  std::vector<geometry::BoundaryLoop> nested = loop_of(&inner);
+  ASSERT_EQ(nested.size(), 1u);
+  for (int& v : nested[0]) v += static_cast<int>(outer.vertices.size());
+  loops.push_back(nested[0]);
+  core::TriangleMesh ring;
+  ring.vertices = outer.vertices;
+  ring.vertices.insert(ring.vertices.end(), inner.vertices.begin(), inner.vertices.end());
+  ring.triangles = geometry::FillFlatLoops(ring.vertices, loops, -Eigen::Vector3d::UnitZ());
+  EXPECT_NEAR(core::SurfaceArea(ring), 0.04 - 0.01, 1e-12);
+  for (int t = 0; t < static_cast<int>(ring.triangles.size()); ++t) {
+    EXPECT_LT(core::TriangleAreaVector(ring, t).z(), 0.0);
+  }
+}
+
+TEST(TJunctions, FacesAreSplitAndTheSurfaceCloses) {
+  damaged::Specimen specimen;
+  specimen.mesh = damaged::Subdivided(assets::BoxMesh({0.2, 0.1, 0.1}), 0.04);
+  core::Rng rng(3);
+  damaged::SplitOneSide(&specimen, &rng);
   core::TexturedMesh mesh;
-  mesh.mesh = assets::BoxMesh({0.2, 0.2, 0.1});
-  // Walls of a recess of 0.1 x 0.1 x 0.02 into the bottom, with its ceiling; the ring is missing.
-  core::TriangleMesh recess = assets::BoxMesh({0.1, 0.1, 0.02});
-  for (Eigen::Vector3d& v : recess.vertices) v.z() += -0.05 + 0.01;
-  for (Eigen::Vector3i& t : recess.triangles) std::swap(t[0], t[1]);
-  core::Append(recess, &mesh.mesh);
-  Open([](const Eigen::Vector3d& m) { return m.z() < -0.0499; }, &mesh);
-  // Joined, so that both are one piece: a recess alone would be a piece of its own.
-  const core::TriangleMesh whole = mesh.mesh;
+  mesh.mesh = specimen.mesh;
+  EXPECT_GT(geometry::Examine(geometry::Weld(mesh.mesh, 0.0), 0).open_edges, 0);
   core::Findings findings;
-  CloseHoles(CategoryNamed("box"), "a.glb", &mesh, &findings);
-  EXPECT_GT(mesh.mesh.triangles.size(), whole.triangles.size());
-  EXPECT_NEAR(VolumeOf(mesh), 0.2 * 0.2 * 0.1 - 0.1 * 0.1 * 0.02, 1e-9);
+  JoinTJunctions("a.obj", &mesh, &findings);
+  EXPECT_GT(FigureOf(findings, "mesh-cracks-joined"), 0);
+  EXPECT_TRUE(geometry::Examine(geometry::Weld(mesh.mesh, 0.0)).IsSolid());
+  EXPECT_NEAR(VolumeOf(mesh), 0.002, 1e-12);
 }
 
 // A cup of one wall is a sheet: its mouth stays open, and so do its holes.

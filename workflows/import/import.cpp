@@ -151,6 +151,24 @@ void RefuseItem(const core::Error& error, ImportOutcome* outcome) {
   outcome->findings.push_back(core::FindingOf(error));
 }
 
+// Warns where the solid of a mesh file differs from the surface in its sides or in the thickness
+// of its walls.
+void WarnOfSolid(assets::Asset* asset) {
+  for (core::Finding& finding : asset->findings) {
+    if (finding.code == "solid-sheets") finding.severity = core::Severity::kWarning;
+  }
+  const Eigen::Vector3d seen = core::Bounds(asset->visual.mesh).sizes();
+  const Eigen::Vector3d made = core::Bounds(asset->solid).sizes();
+  const double worst = ((made - seen).cwiseAbs().array() / seen.array().max(1e-9)).maxCoeff();
+  constexpr double kNoticed = 0.01;
+  if (worst <= kNoticed) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "a side of the solid differs by %.2g %% from that of the mesh",
+                100.0 * worst);
+  asset->findings.push_back({"solid-size", core::Severity::kWarning, asset->name, text, worst,
+                             "close the mesh in a modeller, so that no wall needs a thickness"});
+}
+
 class Importer {
  public:
   Importer(const fs::path& output, const ImportOptions& options)
@@ -224,6 +242,7 @@ class Importer {
     }
     asset_build::BuiltAsset built = asset_build::BuildAsset(visual, request, progress);
     built.asset.findings.insert(built.asset.findings.begin(), findings.begin(), findings.end());
+    if (catalogue == nullptr && source == nullptr) WarnOfSolid(&built.asset);
     findings = built.asset.findings;
     outcome->seconds = built.seconds;
     Keep(item, outcome, [&](const fs::path& folder) {

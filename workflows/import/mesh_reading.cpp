@@ -10,6 +10,7 @@
 #include "importers/link_shapes.h"
 #include "importers/loose_faces.h"
 #include "importers/rigid_urdf.h"
+#include "importers/t_junctions.h"
 #include "importers/up_axis.h"
 
 namespace simwright::workflows {
@@ -96,7 +97,10 @@ ItemMesh ReadInWorld(const fs::path& mesh_path, const assets::UrdfModel* urdf,
   item.look = std::move(file.look);
   core::TriangleMesh& mesh = item.visual.mesh;
   const std::string place = mesh_path.filename().string();
-  if (urdf == nullptr) importers::RemoveLooseFaces(place, &item.visual, findings);
+  if (urdf == nullptr) {
+    importers::JoinTJunctions(place, &item.visual, findings);  // so that pieces are closed
+    importers::RemoveLooseFaces(place, &item.visual, findings);
+  }
   char up = options.up != 0 ? options.up : file.up;
   if (up == 0) up = importers::GuessUpAxis(mesh_path, mesh, category, findings);
   Eigen::Affine3d world_from_file = Eigen::Affine3d::Identity();

@@ -65,6 +65,7 @@ double DistanceAlong(const TriangleMesh& mesh, const Vector3d& origin, const Vec
 
 struct Chord {
   Vector3d middle{0, 0, 0};
+  Vector3d inward{0, 0, 0};  // unit, from the face where it begins
   double length = 0.0;
 };
 
@@ -78,7 +79,7 @@ std::vector<Chord> SampleChords(const TriangleMesh& mesh, int count, core::Rng* 
     const Vector3d middle = (mesh.vertices[f[0]] + mesh.vertices[f[1]] + mesh.vertices[f[2]]) / 3.0;
     const Vector3d inward = -core::TriangleAreaVector(mesh, t).normalized();
     const double length = DistanceAlong(mesh, middle + skip * inward, inward);
-    if (std::isfinite(length)) chords.push_back({middle + 0.5 * length * inward, length});
+    if (std::isfinite(length)) chords.push_back({middle + 0.5 * length * inward, inward, length});
   }
   return chords;
 }
@@ -148,7 +149,7 @@ void AddOverlappingPart(Specimen* specimen, core::Rng* rng) {
   const double radius =
       std::min(0.56 * place.length, 0.2 * core::Bounds(specimen->mesh).sizes().minCoeff());
   core::Append(
-      BallMesh(place.middle + Vector3d(0, 0.5 * place.length - 0.3 * radius, 0), radius, 3),
+      BallMesh(place.middle - (0.5 * place.length - 0.3 * radius) * place.inward, radius, 3),
       &specimen->mesh);
   UseTruthOf(specimen->mesh, specimen);
 }
@@ -185,7 +186,9 @@ void AddInnerBody(Specimen* specimen, core::Rng* rng) {
 // The surface of the cubic cells that are inside.
 void MakeStaircase(Specimen* specimen, core::Rng*) {
   const Eigen::AlignedBox3d box = core::Bounds(specimen->mesh);
-  const double cell = std::min(box.sizes().maxCoeff() / 128.0, box.sizes().minCoeff() / 64.0);
+  const double cell =
+      std::max(box.sizes().maxCoeff() / 256.0,
+               std::min(box.sizes().maxCoeff() / 128.0, box.sizes().minCoeff() / 64.0));
   const ColumnVolume inside(specimen->mesh,
                             static_cast<int>(box.sizes().head<2>().maxCoeff() / cell));
   const double side = inside.cell();
@@ -228,6 +231,10 @@ void MakeStaircase(Specimen* specimen, core::Rng*) {
     }
   }
   specimen->mesh = std::move(steps);
+  // Thin sides are whole cells now, which no import can undo.
+  specimen->sides = core::Bounds(specimen->mesh).sizes();
+  specimen->true_height = specimen->sides.z();
+  std::sort(specimen->sides.data(), specimen->sides.data() + 3);
 }
 
 // As fine as what marching cubes make: 120k to 300k faces.
