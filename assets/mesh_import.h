@@ -16,7 +16,7 @@ struct MeshFile {
   char up = 0;
   // The content that was not read, found elsewhere or guessed, each with its remedy.
   core::Findings findings;
-  // What the file states of its materials beyond the base colour (glTF).
+  // The materials as the file states them beyond the base colour (glTF).
   PbrLook look = {};
 };
 

@@ -22,7 +22,7 @@ struct PbrMaterial {
   bool HasMaps() const { return metallic_map >= 0 || roughness_map >= 0 || normal_map >= 0; }
 };
 
-// What a mesh's file states of its materials, in the order of TexturedMesh::materials. Empty, or
+// The materials as a mesh's file states them, in the order of TexturedMesh::materials. Empty, or
 // shorter than that list, where the file states nothing.
 struct PbrLook {
   std::vector<PbrMaterial> materials;

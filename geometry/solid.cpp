@@ -96,14 +96,18 @@ bool TryUnchanged(const TriangleMesh& visual, const TriangleMesh& welded, double
 bool TryUnion(const TriangleMesh& welded, double diagonal, const SolidOptions& options,
               Solid* solid) {
   if (static_cast<double>(welded.triangles.size()) > 10.0 * options.face_budget) return false;
-  int count = 0;
-  TriangleMesh mesh = UnionOfComponents(welded, &count);
-  if (mesh.empty() || !EnclosesVolume(mesh, diagonal)) return false;
-  Add(solid, "solid-parts-joined", Severity::kInfo,
-      std::to_string(count) + " closed parts that intersect were joined into one surface", count);
-  solid->mesh = std::move(mesh);
-  solid->method = SolidMethod::kRepaired;
-  return true;
+  for (const double tolerance : {0.0, 1e-6, 1e-4}) {
+    int count = 0;
+    TriangleMesh mesh =
+        UnionOfComponents(tolerance > 0.0 ? Weld(welded, tolerance * diagonal) : welded, &count);
+    if (mesh.empty() || !EnclosesVolume(mesh, diagonal)) continue;
+    Add(solid, "solid-parts-joined", Severity::kInfo,
+        std::to_string(count) + " closed parts that intersect were joined into one surface", count);
+    solid->mesh = std::move(mesh);
+    solid->method = SolidMethod::kRepaired;
+    return true;
+  }
+  return false;
 }
 
 TriangleMesh Normalized(const TriangleMesh& mesh, const Vector3d& center, double scale) {

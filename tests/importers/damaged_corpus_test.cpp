@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "assets/primitive_meshes.h"
 #include "core/files.h"
 #include "tests/importers/damaged/column_volume.h"
 
@@ -32,8 +33,8 @@ TEST(DamagedCorpus, CoversKindsAndDamages) {
 
 // The measure of the truth itself, against closed formulas.
 TEST(DamagedCorpus, TheTruthIsExactEnough) {
-  const Specimen die = SoundSpecimen("die", 1);
-  EXPECT_NEAR(die.volume / die.sides.prod(), 1.0, 0.05);  // its edges are rounded
+  const ColumnVolume box(assets::BoxMesh({0.3, 0.2, 0.1}), 600);
+  EXPECT_NEAR(box.Volume() / 0.006, 1.0, 1e-9);
   Specimen ball = SoundSpecimen("ball", 1);
   const double radius = 0.5 * ball.sides.x();
   EXPECT_NEAR(ball.volume / (4.0 / 3.0 * M_PI * std::pow(radius, 3)), 1.0, 0.02);

@@ -27,7 +27,7 @@ constexpr std::array<const char*, 30> kCorpusKinds = {
     "bucket",   "wooden_spoon", "egg",          "box",    "pepper_mill", "cutting_board"};
 constexpr std::array<const char*, 4> kFormats = {"glb", "obj", "ply", "stl"};
 constexpr std::uint64_t kCorpusSeed = 2024;
-constexpr int kTruthColumns = 600;
+constexpr int kSoundColumns = 600;
 constexpr double kSideTolerance = 0.02, kVolumeTolerance = 0.05;
 
 const Damage& DamageNamed(const std::string& name) {
@@ -126,7 +126,7 @@ Specimen SoundSpecimen(const std::string& kind, std::uint64_t seed) {
   specimen.kind = kind;
   specimen.category = found->category;
   specimen.mesh = library::MakeRigidObject(*found, seed).visual.mesh;
-  specimen.volume = ColumnVolume(specimen.mesh, kTruthColumns).Volume();
+  specimen.volume = ColumnVolume(specimen.mesh, kSoundColumns).Volume();
   specimen.sides = core::Bounds(specimen.mesh).sizes();
   specimen.true_height = specimen.sides.z();
   std::sort(specimen.sides.data(), specimen.sides.data() + 3);
