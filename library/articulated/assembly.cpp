@@ -51,8 +51,13 @@ JointResistance SampleJointResistance(core::Rng& rng, double lever) {
 
 Assembly::Assembly(const std::string& kind, const physics_params::PhysicalParameters& parameters,
                    const Options& options)
-    : rng_(core::StreamRng(options.seed, StreamOf(kind))) {
+    : options_(options), draws_(core::StreamRng(options.seed, StreamOf(kind)), options.draws) {
   asset_.parameters = parameters;
+  if (options.size) {
+    asset_.parameters.length.sample = options.size->x();
+    asset_.parameters.width.sample = options.size->y();
+    asset_.parameters.height.sample = options.size->z();
+  }
   asset_.parameters.resolution = "the library's " + kind;
   asset_.name = options.name.empty() ? kind : options.name;
   asset_.source = "library/" + kind;
@@ -139,6 +144,14 @@ void Assembly::FitDensity(const std::string& material) {
   }
 }
 
+void Assembly::FillAppearance(size_t index) {
+  const Eigen::Affine3d link_from_root(Eigen::Translation3d(-origins_[index]));
+  for (Piece& piece : pieces_[index]) {
+    core::Transform(link_from_root, &piece.mesh);
+    AddColored(piece.mesh, piece.matter, &asset_.links[index].visual);
+  }
+}
+
 void Assembly::FillLink(size_t index) {
   assets::ArticulatedLink& link = asset_.links[index];
   const Eigen::Affine3d link_from_root(Eigen::Translation3d(-origins_[index]));
@@ -186,6 +199,11 @@ void Assembly::SetJointFriction() {
 }
 
 assets::ArticulatedAsset Assembly::Finish(const std::string& fitted) {
+  if (options_.record != nullptr) *options_.record = draws_.record();
+  if (options_.appearance_only) {
+    for (size_t i = 0; i < asset_.links.size(); ++i) FillAppearance(i);
+    return std::move(asset_);
+  }
   if (!fitted.empty()) FitDensity(fitted);
   double mass = 0.0;
   for (size_t i = 0; i < asset_.links.size(); ++i) {

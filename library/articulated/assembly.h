@@ -10,6 +10,7 @@
 #include "library/articulated/generator_options.h"
 #include "library/articulated/handles.h"
 #include "library/articulated/piece_material.h"
+#include "library/draws.h"
 
 namespace simwright::library {
 
@@ -23,6 +24,9 @@ struct JointResistance {
 // (lever 1): friction of 1.5 to 8 N, and as much again by damping at 1 to 4 m/s or rad/s. Operable
 // parts must require at most 22.2 N (ADA Standards for Accessible Design, 2010, 309.4).
 JointResistance SampleJointResistance(core::Rng& rng, double lever = 1.0);
+inline JointResistance SampleJointResistance(Draws& draws, double lever = 1.0) {
+  return SampleJointResistance(draws.unseen(), lever);
+}
 
 struct JointPlan {
   assets::JointType type = assets::JointType::kFixed;
@@ -43,11 +47,11 @@ class Assembly {
   Assembly(const std::string& kind, const physics_params::PhysicalParameters& parameters,
            const Options& options);
 
-  core::Rng& rng() { return rng_; }
+  Draws& draws() { return draws_; }
   // Returns the parameters sampled from the category; a generator may narrow the sizes.
   physics_params::PhysicalParameters& parameters() { return asset_.parameters; }
-  double Draw(double low, double high) { return core::Uniform(rng_, low, high); }
-  bool Bernoulli(double probability) { return core::Uniform(rng_) < probability; }
+  double Draw(double low, double high) { return Uniform(draws_, low, high); }
+  bool Bernoulli(double probability) { return Uniform(draws_) < probability; }
   // Records a sampled feature for asset.json.
   void RecordFeature(const std::string& feature, const std::string& value);
   void FixToWorld() { asset_.fixed = true; }
@@ -79,10 +83,12 @@ class Assembly {
   };
   void FitDensity(const std::string& material);
   void FillLink(size_t index);
+  void FillAppearance(size_t index);  // its visual alone
   void SetJointFriction();
 
   assets::ArticulatedAsset asset_;
-  core::Rng rng_;
+  Options options_;
+  Draws draws_;
   std::vector<std::vector<Piece>> pieces_;  // per link
   std::vector<Eigen::Vector3d> origins_;    // per link, root frame
 };

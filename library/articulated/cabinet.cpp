@@ -19,7 +19,7 @@ assets::ArticulatedAsset MakeCabinet(const Options& options) {
   const double deep = std::min(a.parameters().width.sample, 0.6);
   const double high = a.parameters().height.sample;
   const double front = -0.5 * deep, rear = 0.5 * deep, inner = front + kCabinetBoard + kGap;
-  const Matter board = Board(a.rng());
+  const Matter board = Board(a.draws());
   const int body = a.AddRoot("body", "body");
   a.Add(body, board,
         CarcassPanels(Bounds(inner, rear, -0.5 * across, 0.5 * across, 0.0, high), kCabinetBoard));
@@ -34,9 +34,9 @@ assets::ArticulatedAsset MakeCabinet(const Options& options) {
   const bool two = across > 0.55 || (across > 0.45 && a.Bernoulli(0.5));
   a.RecordFeature("doors", two ? "two" : "one");
   const HandleKind kind =
-      SampleHandleKind(a.rng(), {HandleKind::kBar, HandleKind::kBow, HandleKind::kKnob});
+      SampleHandleKind(a.draws(), {HandleKind::kBar, HandleKind::kBow, HandleKind::kKnob});
   a.RecordFeature("handle", HandleName(kind));
-  const Matter metal = FurnitureMetal(a.rng());
+  const Matter metal = FurnitureMetal(a.draws());
   const double upper = a.Draw(1.6, 2.3);
   const double first = a.Bernoulli(0.5) ? 1.0 : -1.0;
   if (!two) a.RecordFeature("hinge", first > 0.0 ? "left" : "right");
@@ -47,7 +47,7 @@ assets::ArticulatedAsset MakeCabinet(const Options& options) {
     const int door =
         a.AddLink(two ? "door_" + std::to_string(i) : "door", "door", body,
                   SideHinge(front + kCabinetBoard, hinge_y, 0.5 * high, upper,
-                            SampleJointResistance(a.rng(), std::abs(hinge_y - free_y))));
+                            SampleJointResistance(a.draws(), std::abs(hinge_y - free_y))));
     a.Add(door, board, Box({front, hinge_y, 0.0}, {front + kCabinetBoard, free_y, high}, 0.003));
     HandlePlacement place;
     place.mount = {front, free_y + side * 0.035, 0.5 * high};

@@ -67,7 +67,7 @@ int AddDial(Assembly* assembly, const std::string& name, int parent, const Eigen
   plan.origin = mount;
   plan.axis = Eigen::Vector3d::UnitX();
   plan.upper = kDialRange;
-  plan.joint_resistance = SampleJointResistance(assembly->rng(), radius);
+  plan.joint_resistance = SampleJointResistance(assembly->draws(), radius);
   const int dial = assembly->AddLink(name, "knob", parent, plan);
   const Eigen::Vector3d out = -Eigen::Vector3d::UnitX();
   const Eigen::Vector3d foot = mount + kDialGap * out, top = mount + depth * out;
@@ -86,7 +86,7 @@ int AddButton(Assembly* assembly, const std::string& name, int parent, const Eig
   plan.origin = mount;
   plan.axis = Eigen::Vector3d::UnitX();
   plan.upper = kButtonTravel;
-  plan.joint_resistance = SampleJointResistance(assembly->rng());
+  plan.joint_resistance = SampleJointResistance(assembly->draws());
   const int button = assembly->AddLink(name, "button", parent, plan);
   assembly->Add(button, matter,
                 Box(mount + Eigen::Vector3d(-kButtonRaise - 0.005, -0.5 * width, -0.5 * height),

@@ -19,7 +19,7 @@ assets::ArticulatedAsset MakeDishwasher(const Options& options) {
   const double across = a.parameters().length.sample, deep = a.parameters().width.sample;
   const double high = a.parameters().height.sample;
   const double front = -0.5 * deep, rear = 0.5 * deep, inner = front + kDishwasherDoor + kGap;
-  const Matter casing = Casing(a.rng());
+  const Matter casing = Casing(a.draws());
   const int body = a.AddRoot("body", "body");
   // The pump and the counterweight are in the plinth.
   a.Add(body, BlackPlastic(),
@@ -49,11 +49,11 @@ assets::ArticulatedAsset MakeDishwasher(const Options& options) {
   const int door =
       a.AddLink("door", "door", body,
                 BottomHinge(front + kDishwasherDoor, kDishwasherPlinth, a.Draw(1.45, 1.55),
-                            SampleJointResistance(a.rng(), top - kDishwasherPlinth)));
+                            SampleJointResistance(a.draws(), top - kDishwasherPlinth)));
   a.Add(
       door, casing,
       Box({front, -0.5 * across, kDishwasherPlinth}, {front + kDishwasherDoor, 0.5 * across, top}));
-  const HandleKind kind = SampleHandleKind(a.rng(), {HandleKind::kBar, HandleKind::kBow});
+  const HandleKind kind = SampleHandleKind(a.draws(), {HandleKind::kBar, HandleKind::kBow});
   a.RecordFeature("handle", HandleName(kind));
   HandlePlacement place;
   place.mount = {front, 0.0, top - 0.05};

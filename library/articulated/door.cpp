@@ -26,7 +26,7 @@ void AddTurningHandle(Assembly* a, int leaf, int index, const Eigen::Vector3d& m
   // Rotation presses the lever's end down, in either direction of the lever.
   plan.axis = Eigen::Vector3d(side, 0.0, 0.0);
   plan.upper = kTurn;
-  plan.joint_resistance = SampleJointResistance(a->rng(), lever ? 0.1 : 0.026);
+  plan.joint_resistance = SampleJointResistance(a->draws(), lever ? 0.1 : 0.026);
   const int handle = a->AddLink("handle_" + std::to_string(index), "handle", leaf, plan);
   const Eigen::Vector3d foot = mount + 0.009 * out, head = mount + 0.056 * out;
   if (lever) {
@@ -64,7 +64,7 @@ assets::ArticulatedAsset MakeDoor(const Options& options) {
   const double across = a.parameters().length.sample;
   const double deep = std::clamp(a.parameters().width.sample, 0.09, 0.16);
   const double high = a.parameters().height.sample;
-  const Matter frame_wood = Board(a.rng()), leaf_wood = Board(a.rng());
+  const Matter frame_wood = Board(a.draws()), leaf_wood = Board(a.draws());
   const int frame = a.AddRoot("frame", "frame");
   AddFrame(&a, frame, deep, across, high, frame_wood);
 
@@ -73,7 +73,7 @@ assets::ArticulatedAsset MakeDoor(const Options& options) {
   const double front = -0.5 * deep, edge = 0.5 * across - kJamb - kGap;
   const int leaf = a.AddLink("door", "door", frame,
                              SideHinge(front, side * edge, 0.5 * high, a.Draw(1.5, 1.9),
-                                       SampleJointResistance(a.rng(), across)));
+                                       SampleJointResistance(a.draws(), across)));
   const double top = high - kJamb - kGap;
   a.Add(leaf, leaf_wood, Box({front, -edge, kFloorGap}, {front + kLeaf, edge, top}, 0.002));
   // The panels are mouldings a shade darker.
@@ -90,7 +90,7 @@ assets::ArticulatedAsset MakeDoor(const Options& options) {
   a.RecordFeature("panels", std::to_string(panels));
   const bool lever = a.Bernoulli(0.65);
   a.RecordFeature("handle", lever ? "lever" : "knob");
-  const Matter metal = FurnitureMetal(a.rng());
+  const Matter metal = FurnitureMetal(a.draws());
   const double spindle = -side * (edge - kBackset);
   AddTurningHandle(&a, leaf, 0, {front, spindle, kHandleHeight}, -Eigen::Vector3d::UnitX(), side,
                    lever, metal);

@@ -13,6 +13,7 @@ constexpr double kThin = 0.012;             // m, of the drawers' sides
 constexpr double kBottom = 0.009;           // m, of the drawers' bottoms
 constexpr double kRunner = 0.006;           // m, between a drawer and the carcass's sides
 constexpr double kDrawerUnitPlinth = 0.05;  // m
+constexpr double kTallestNightstand = 0.7;  // m
 constexpr double kDrawerHeight = 0.2;       // m, approximate height of the fronts
 
 struct Cell {
@@ -31,7 +32,7 @@ void AddDrawer(Assembly* a, int body, int index, const Cell& c, const Matter& bo
   const double depth =
       c.rear - kDrawerUnitBoard - c.front - kDrawerUnitBoard - 2 * kGap;  // of the box
   plan.upper = 0.75 * depth;
-  plan.joint_resistance = SampleJointResistance(a->rng());
+  plan.joint_resistance = SampleJointResistance(a->draws());
   const int drawer = a->AddLink("drawer_" + number, "drawer", body, plan);
   a->Add(drawer, board,
          Box({c.front, -c.half, c.low}, {c.front + kDrawerUnitBoard, c.half, c.high}, 0.003));
@@ -56,12 +57,13 @@ void AddDrawer(Assembly* a, int body, int index, const Cell& c, const Matter& bo
 }  // namespace
 
 assets::ArticulatedAsset MakeDrawerUnit(const Options& options) {
-  const bool nightstand = options.seed % 2 == 0;
+  const bool nightstand =
+      options.size ? options.size->z() < kTallestNightstand : options.seed % 2 == 0;
   Assembly a("drawer_unit", nightstand ? "nightstand" : "chest of drawers", options);
   const double across = a.parameters().length.sample, deep = a.parameters().width.sample;
   const double high = a.parameters().height.sample;
   const double front = -0.5 * deep, rear = 0.5 * deep, inner = front + kDrawerUnitBoard + kGap;
-  const Matter board = Board(a.rng());
+  const Matter board = Board(a.draws());
   const int body = a.AddRoot("body", "body");
   a.Add(body, board,
         Box({inner + 0.03, -0.5 * across + 0.02, 0.0},
@@ -76,9 +78,9 @@ assets::ArticulatedAsset MakeDrawerUnit(const Options& options) {
   const int count = std::clamp(static_cast<int>((top - low) / kDrawerHeight + 0.5), 2, 5);
   a.RecordFeature("drawers", std::to_string(count));
   const HandleKind kind =
-      SampleHandleKind(a.rng(), {HandleKind::kBar, HandleKind::kBow, HandleKind::kKnob});
+      SampleHandleKind(a.draws(), {HandleKind::kBar, HandleKind::kBow, HandleKind::kKnob});
   a.RecordFeature("handle", HandleName(kind));
-  const Matter metal = FurnitureMetal(a.rng());
+  const Matter metal = FurnitureMetal(a.draws());
   for (int i = 0; i < count; ++i) {
     const double step = (top - low) / count;
     AddDrawer(

@@ -39,7 +39,7 @@ void AddLever(Assembly* a, int body, const Tap& t, double x, const Matter& metal
   plan.origin = hub;
   plan.axis = Eigen::Vector3d::UnitY();
   plan.upper = a->Draw(0.5, 0.9);
-  plan.joint_resistance = SampleJointResistance(a->rng(), 0.08);
+  plan.joint_resistance = SampleJointResistance(a->draws(), 0.08);
   const int lever = a->AddLink("lever", "lever", body, plan);
   const Eigen::Vector3d end = hub + Eigen::Vector3d(0.0, 0.028, 0.0);
   a->Add(lever, metal, Rod(hub, end, 0.017));
@@ -60,7 +60,7 @@ void AddKnobs(Assembly* a, int body, const Tap& t, double x, double apart, const
     plan.origin = {x, y, neck + 0.001};
     plan.axis = Eigen::Vector3d(0.0, 0.0, i == 0 ? 1.0 : -1.0);
     plan.upper = a->Draw(1.4, 3.0);
-    plan.joint_resistance = SampleJointResistance(a->rng(), 0.022);
+    plan.joint_resistance = SampleJointResistance(a->draws(), 0.022);
     const int knob = a->AddLink("knob_" + std::to_string(i), "knob", body, plan);
     a->Add(knob, metal, Rod(plan.origin, plan.origin + Eigen::Vector3d(0, 0, 0.014), 0.010));
     const Eigen::Vector3d middle = plan.origin + Eigen::Vector3d(0, 0, 0.014);
@@ -104,7 +104,7 @@ assets::ArticulatedAsset MakeFaucet(const Options& options) {
     plan.upper = a.Draw(0.8, 1.2);
     // The spout swivels away from a lever, whose range is the other half.
     plan.lower = single ? 0.0 : -plan.upper;
-    plan.joint_resistance = SampleJointResistance(a.rng(), t.reach);
+    plan.joint_resistance = SampleJointResistance(a.draws(), t.reach);
   }
   const int spout = a.AddLink("spout", "spout", body, plan);
   AddSpout(&a, spout, t, x, metal);

@@ -14,7 +14,7 @@ core::Material Finish(RigidDraft* d) {
   const core::Material kFinishes[] = {
       Look("oak", .76f, .58f, .38f), Look("walnut", .45f, .30f, .20f),
       Look("beech", .82f, .66f, .46f), Look("white paint", .93f, .93f, .90f)};
-  return kFinishes[core::UniformIndex(d->rng, std::size(kFinishes))];
+  return kFinishes[UniformIndex(d->draws, std::size(kFinishes))];
 }
 
 FurnitureBox Between(double x0, double x1, double y0, double y1, double z0, double z1,
@@ -132,7 +132,7 @@ core::TexturedMesh Floor(RigidDraft* d) {
   const core::Material kScreeds[] = {Look("screed", .62f, .61f, .58f),
                                      Look("tile", .70f, .60f, .50f),
                                      Look("slate", .40f, .42f, .44f)};
-  const core::Material look = kScreeds[core::UniformIndex(d->rng, std::size(kScreeds))];
+  const core::Material look = kScreeds[UniformIndex(d->draws, std::size(kScreeds))];
   const double half = 0.5 * kFloorSide;
   return OfPlanks(d, {Between(-half, half, -half, half, 0.0, kFloorThick)}, {look});
 }

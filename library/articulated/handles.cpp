@@ -65,9 +65,8 @@ const char* HandleName(HandleKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-HandleKind SampleHandleKind(core::Rng& rng, const std::vector<HandleKind>& kinds) {
-  return kinds[static_cast<size_t>(
-      core::UniformIndex(rng, static_cast<std::int64_t>(kinds.size())))];
+HandleKind SampleHandleKind(Draws& draws, const std::vector<HandleKind>& kinds) {
+  return kinds[static_cast<size_t>(UniformIndex(draws, static_cast<std::int64_t>(kinds.size())))];
 }
 
 std::vector<core::TriangleMesh> HandleMeshes(HandleKind kind, const HandlePlacement& place) {

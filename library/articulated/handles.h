@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/mesh.h"
-#include "core/random.h"
+#include "library/draws.h"
 
 namespace simwright::library {
 
@@ -14,7 +14,7 @@ namespace simwright::library {
 enum class HandleKind { kBar, kBow, kKnob };
 
 const char* HandleName(HandleKind kind);  // "bar", "bow", "knob"
-HandleKind SampleHandleKind(core::Rng& rng, const std::vector<HandleKind>& kinds);
+HandleKind SampleHandleKind(Draws& draws, const std::vector<HandleKind>& kinds);
 
 struct HandlePlacement {
   Eigen::Vector3d mount;   // on the surface, under the handle's centre

@@ -80,7 +80,7 @@ assets::ArticulatedAsset MakeLaptop(const Options& options) {
   hinge.origin = {x + 0.002, 0.0, p.base + 0.5 * kLaptopLidGap};
   hinge.axis = Eigen::Vector3d::UnitY();
   hinge.upper = a.Draw(2.0, 2.35);
-  hinge.joint_resistance = SampleJointResistance(a.rng(), 0.3 * p.deep);
+  hinge.joint_resistance = SampleJointResistance(a.draws(), 0.3 * p.deep);
   const int lid = a.AddLink("lid", "lid", body, hinge);
   const double low = p.base + kLaptopLidGap, high = low + p.lid;
   a.Add(lid, shell, Box({-x, -y, low + 0.001}, {x, y, high}, 0.001));

@@ -94,7 +94,7 @@ assets::ArticulatedAsset MakeLightSwitch(const Options& options) {
     plan.origin = pivot;
     plan.axis = Eigen::Vector3d::UnitY();
     plan.upper = 2.0 * tilt;
-    plan.joint_resistance = SampleJointResistance(a.rng(), toggle ? 0.015 : 0.4 * tall);
+    plan.joint_resistance = SampleJointResistance(a.draws(), toggle ? 0.015 : 0.4 * tall);
     const std::string name = gangs > 1 ? "switch_" + std::to_string(i) : "switch";
     const int link = a.AddLink(name, "switch", body, plan);
     // The switch is modelled at mid-throw, then rotated back to "off".

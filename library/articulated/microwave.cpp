@@ -81,7 +81,7 @@ assets::ArticulatedAsset MakeMicrowave(const Options& options) {
   p.panel = a.Draw(0.20, 0.26) * p.across;
   p.split = 0.5 * p.across - p.panel;
   a.RecordFeature("hinge", p.side > 0.0 ? "left" : "right");
-  const Matter casing = Casing(a.rng());
+  const Matter casing = Casing(a.draws());
   const int body = a.AddRoot("body", "body");
   AddBody(&a, body, p, casing);
 
@@ -90,14 +90,14 @@ assets::ArticulatedAsset MakeMicrowave(const Options& options) {
   const double width = std::abs(hinge_y - free_y);
   const int door = a.AddLink("door", "door", body,
                              SideHinge(front + kMicrowaveDoor, hinge_y, 0.5 * p.high,
-                                       a.Draw(1.6, 2.0), SampleJointResistance(a.rng(), width)));
+                                       a.Draw(1.6, 2.0), SampleJointResistance(a.draws(), width)));
   const Eigen::AlignedBox3d slab = Bounds(front, front + kMicrowaveDoor, std::min(hinge_y, free_y),
                                           std::max(hinge_y, free_y), kMicrowaveFoot + kGap, p.high);
   const double border = 0.16 * p.high;
   a.Add(door, casing, FrameBars(slab, border));
   a.Add(door, DarkGlass(), Pane(slab, border, 0.010));
 
-  const HandleKind kind = SampleHandleKind(a.rng(), {HandleKind::kBar, HandleKind::kBow});
+  const HandleKind kind = SampleHandleKind(a.draws(), {HandleKind::kBar, HandleKind::kBow});
   a.RecordFeature("handle", HandleName(kind));
   HandlePlacement place;
   place.mount = {front, free_y + p.side * 0.022, 0.5 * (p.high + kMicrowaveFoot)};

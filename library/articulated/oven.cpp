@@ -41,7 +41,7 @@ assets::ArticulatedAsset MakeOven(const Options& options) {
   const double front = -0.5 * deep, rear = 0.5 * deep, inner = front + kOvenDoor + kGap;
   const double panel = a.Draw(0.10, 0.12);  // height of the control panel
   const double plinth = std::max(kOvenPlinth, high - panel - kTallestDoor);  // a warming drawer
-  const Matter casing = Casing(a.rng());
+  const Matter casing = Casing(a.draws());
   const int body = a.AddRoot("body", "body");
   a.Add(body, casing, Box({inner + 0.02, -0.5 * across, 0.0}, {rear, 0.5 * across, plinth}));
   const double shell_top = high - panel;
@@ -62,13 +62,13 @@ assets::ArticulatedAsset MakeOven(const Options& options) {
   const double top = shell_top - kGap;
   const int door = a.AddLink("door", "door", body,
                              BottomHinge(front + kOvenDoor, plinth, a.Draw(1.4, 1.55),
-                                         SampleJointResistance(a.rng(), top - plinth)));
+                                         SampleJointResistance(a.draws(), top - plinth)));
   const Eigen::AlignedBox3d slab =
       Bounds(front, front + kOvenDoor, -0.5 * across, 0.5 * across, plinth, top);
   const double border = 0.09;
   a.Add(door, casing, FrameBars(slab, border));
   a.Add(door, DarkGlass(), Pane(slab, border, 0.006));
-  const HandleKind kind = SampleHandleKind(a.rng(), {HandleKind::kBar, HandleKind::kBow});
+  const HandleKind kind = SampleHandleKind(a.draws(), {HandleKind::kBar, HandleKind::kBow});
   a.RecordFeature("handle", HandleName(kind));
   HandlePlacement place;
   place.mount = {front, 0.0, top - 0.045};

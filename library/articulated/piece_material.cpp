@@ -12,8 +12,8 @@ struct Paint {
 };
 
 template <size_t Count>
-Matter SamplePaint(core::Rng& rng, const char* material, const Paint (&paints)[Count]) {
-  const Paint& p = paints[core::UniformIndex(rng, Count)];
+Matter SamplePaint(Draws& draws, const char* material, const Paint (&paints)[Count]) {
+  const Paint& p = paints[UniformIndex(draws, Count)];
   return MatterOf(material, p.look, p.r, p.g, p.b);
 }
 
@@ -26,12 +26,12 @@ Matter MatterOf(const std::string& material, const std::string& look, float r, f
   return {look, material, 0.5 * (known->density.min + known->density.max), {r, g, b, 1.0f}};
 }
 
-Matter Casing(core::Rng& rng) {
+Matter Casing(Draws& draws) {
   constexpr Paint kPaints[] = {{"white_enamel", 0.92f, 0.92f, 0.91f},
                                {"cream_enamel", 0.90f, 0.86f, 0.76f},
                                {"black_enamel", 0.16f, 0.16f, 0.17f},
                                {"grey_enamel", 0.62f, 0.64f, 0.66f}};
-  return SamplePaint(rng, "appliance", kPaints);
+  return SamplePaint(draws, "appliance", kPaints);
 }
 
 Matter BrushedSteel() {
@@ -50,18 +50,17 @@ Matter ClearGlass() {
   return MatterOf("glass", "clear_glass", 0.70f, 0.83f, 0.90f);
 }
 
-Matter Board(core::Rng& rng) {
+Matter Board(Draws& draws) {
   constexpr Paint kPaints[] = {{"oak", 0.76f, 0.58f, 0.38f},
                                {"walnut", 0.45f, 0.30f, 0.20f},
                                {"white_paint", 0.93f, 0.93f, 0.90f},
                                {"grey_paint", 0.58f, 0.61f, 0.63f},
                                {"green_paint", 0.48f, 0.58f, 0.50f}};
-  return SamplePaint(rng, "plywood", kPaints);
+  return SamplePaint(draws, "plywood", kPaints);
 }
 
-Matter FurnitureMetal(core::Rng& rng) {
-  return core::Uniform(rng) < 0.7 ? BrushedSteel()
-                                  : MatterOf("brass", "brass", 0.80f, 0.65f, 0.35f);
+Matter FurnitureMetal(Draws& draws) {
+  return Uniform(draws) < 0.7 ? BrushedSteel() : MatterOf("brass", "brass", 0.80f, 0.65f, 0.35f);
 }
 
 }  // namespace simwright::library

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "core/random.h"
+#include "library/draws.h"
 
 namespace simwright::library {
 
@@ -21,12 +21,12 @@ Matter MatterOf(const std::string& material, const std::string& look, float r, f
 
 // The common appearances. Casing has the material "appliance": its density is fitted to the
 // appliance's mass.
-Matter Casing(core::Rng& rng);  // white, cream, black or grey
+Matter Casing(Draws& draws);  // white, cream, black or grey
 Matter BrushedSteel();
 Matter BlackPlastic();
-Matter DarkGlass();                     // for an oven's door
-Matter ClearGlass();                    // pale blue
-Matter Board(core::Rng& rng);           // plywood: oak, walnut, white, grey or green
-Matter FurnitureMetal(core::Rng& rng);  // steel or brass, for handles
+Matter DarkGlass();                   // for an oven's door
+Matter ClearGlass();                  // pale blue
+Matter Board(Draws& draws);           // plywood: oak, walnut, white, grey or green
+Matter FurnitureMetal(Draws& draws);  // steel or brass, for handles
 
 }  // namespace simwright::library

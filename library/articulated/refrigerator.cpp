@@ -27,7 +27,7 @@ assets::ArticulatedAsset MakeRefrigerator(const Options& options) {
   const double front = -0.5 * deep, rear = 0.5 * deep, inner = front + kRefrigeratorDoor + kGap;
   const Matter casing =
       a.Bernoulli(0.3) ? Matter{"steel_enamel", "appliance", 370.0, {0.72f, 0.73f, 0.75f, 1.0f}}
-                       : Casing(a.rng());
+                       : Casing(a.draws());
   const int body = a.AddRoot("body", "body");
   a.Add(body, BlackPlastic(),
         Box({inner + 0.03, -0.48 * across, 0.0}, {rear, 0.48 * across, kRefrigeratorFoot}, 0.0));
@@ -45,7 +45,7 @@ assets::ArticulatedAsset MakeRefrigerator(const Options& options) {
   a.RecordFeature("doors", two ? "two" : "one");
   const double side = a.Bernoulli(0.5) ? 1.0 : -1.0;
   a.RecordFeature("hinge", side > 0.0 ? "left" : "right");
-  const HandleKind kind = SampleHandleKind(a.rng(), {HandleKind::kBar, HandleKind::kBow});
+  const HandleKind kind = SampleHandleKind(a.draws(), {HandleKind::kBar, HandleKind::kBow});
   a.RecordFeature("handle", HandleName(kind));
   const double upper = a.Draw(1.6, 2.2), standoff = a.Draw(0.038, 0.046);
   for (size_t i = 0; i < cells.size(); ++i) {
@@ -65,7 +65,7 @@ assets::ArticulatedAsset MakeRefrigerator(const Options& options) {
     const int door =
         a.AddLink("door" + number, "door", body,
                   SideHinge(front + kRefrigeratorDoor, side * 0.5 * across, 0.5 * (low + top),
-                            upper, SampleJointResistance(a.rng(), across)));
+                            upper, SampleJointResistance(a.draws(), across)));
     a.Add(door, casing,
           Box({front, -0.5 * across, low}, {front + kRefrigeratorDoor, 0.5 * across, top}, 0.006));
     HandlePlacement place;

@@ -21,7 +21,7 @@ assets::ArticulatedAsset MakeToaster(const Options& options) {
   const double across = std::max(a.parameters().width.sample, 2 * kSlot + 0.06);
   const double high = a.parameters().height.sample;
   const double x0 = -0.5 * deep, x1 = 0.5 * deep, y = 0.5 * across, low = kToasterFoot + kFloor;
-  const Matter casing = Casing(a.rng());
+  const Matter casing = Casing(a.draws());
   const int body = a.AddRoot("body", "body");
   for (const double fx : {-0.4, 0.4}) {
     for (const double fy : {-0.35, 0.35}) {
@@ -46,7 +46,7 @@ assets::ArticulatedAsset MakeToaster(const Options& options) {
   plan.origin = {x0 - kLeverGap, 0.0, top};
   plan.axis = -Eigen::Vector3d::UnitZ();
   plan.upper = travel;
-  plan.joint_resistance = SampleJointResistance(a.rng());
+  plan.joint_resistance = SampleJointResistance(a.draws());
   const int lever = a.AddLink("lever", "lever", body, plan);
   const double half = a.Draw(0.018, 0.024);
   a.Add(lever, BlackPlastic(),

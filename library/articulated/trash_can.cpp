@@ -53,14 +53,14 @@ assets::ArticulatedAsset MakeTrashCan(const Options& options) {
   plan.origin = {top_radius + kOverhang, 0.0, rim + kTrashCanLidGap};
   plan.axis = Eigen::Vector3d::UnitY();
   plan.upper = a.Draw(1.3, 1.7);
-  plan.joint_resistance = SampleJointResistance(a.rng(), width);
+  plan.joint_resistance = SampleJointResistance(a.draws(), width);
   const int lid = a.AddLink("lid", "lid", body, plan);
   const double bottom = rim + kTrashCanLidGap;
   Matter cover = BlackPlastic();
   a.Add(lid, cover,
         Frustum({0, 0, bottom}, {0, 0, bottom + kLid}, top_radius + kOverhang, top_radius - 0.01,
                 28));
-  const HandleKind kind = SampleHandleKind(a.rng(), {HandleKind::kKnob, HandleKind::kBow});
+  const HandleKind kind = SampleHandleKind(a.draws(), {HandleKind::kKnob, HandleKind::kBow});
   a.RecordFeature("handle", HandleName(kind));
   HandlePlacement place;
   place.mount = {-0.5 * top_radius, 0.0, bottom + kLid};

@@ -47,7 +47,7 @@ void AddSliding(Assembly* a, int body, const Eigen::AlignedBox3d& hole, HandleKi
   plan.origin = {front, 0.5 * (y_edge + y_meet), 0.5 * (z0 + z1)};
   plan.axis = Eigen::Vector3d(0.0, -side, 0.0);
   plan.upper = 0.5 * hole.sizes().y() - middle - 4 * kGap;
-  plan.joint_resistance = SampleJointResistance(a->rng());
+  plan.joint_resistance = SampleJointResistance(a->draws());
   const int sash = a->AddLink("sash", "window", body, plan);
   AddSash(a, sash,
           Bounds(front, front + kSash, std::min(y_edge, y_meet), std::max(y_edge, y_meet), z0, z1),
@@ -64,7 +64,7 @@ void AddCasement(Assembly* a, int body, const Eigen::AlignedBox3d& hole, double 
   const double z0 = hole.min().z() - lap, z1 = hole.max().z() + lap;
   const int sash = a->AddLink("sash", "window", body,
                               SideHinge(x1, side * half, 0.5 * (z0 + z1), a->Draw(1.2, 1.57),
-                                        SampleJointResistance(a->rng(), 2 * half)));
+                                        SampleJointResistance(a->draws(), 2 * half)));
   AddSash(a, sash, Bounds(x1 - kSash, x1, -half, half, z0, z1), bars);
   AddGrip(a, sash, kind, {x1 - kSash, -side * (half - 0.5 * kSashBar), 0.5 * (z0 + z1)}, metal);
 }
@@ -87,7 +87,7 @@ assets::ArticulatedAsset MakeWindow(const Options& options) {
   a.Add(body, bars, FrameBars(Bounds(-half, half, -0.5 * across, 0.5 * across, 0.0, high), kBar));
   const Eigen::AlignedBox3d hole =
       Bounds(-half, half, -0.5 * across + kBar, 0.5 * across - kBar, kBar, high - kBar);
-  const HandleKind kind = SampleHandleKind(a.rng(), {HandleKind::kBar, HandleKind::kBow});
+  const HandleKind kind = SampleHandleKind(a.draws(), {HandleKind::kBar, HandleKind::kBow});
   a.RecordFeature("handle", HandleName(kind));
   if (sliding) {
     AddSliding(&a, body, hole, kind, bars, BrushedSteel());

@@ -12,7 +12,7 @@ constexpr double kLeastHandle = 0.025;  // m: two fingers
 constexpr std::uint64_t kStream = 20;   // first random stream of shapes and colours
 
 // Returns the usual appearance of a material; glazes and plastics come in several colours.
-core::Material LookOf(const std::string& material, core::Rng& rng) {
+core::Material LookOf(const std::string& material, Draws& draws) {
   struct Paint {
     const char* material;
     float r, g, b;
@@ -31,7 +31,7 @@ core::Material LookOf(const std::string& material, core::Rng& rng) {
   constexpr Paint kGlazes[] = {{"white", .93f, .93f, .91f}, {"cream", .90f, .84f, .70f},
                                {"blue", .24f, .40f, .62f},  {"green", .36f, .56f, .42f},
                                {"red", .72f, .22f, .20f},   {"grey", .55f, .57f, .60f}};
-  const Paint& p = kGlazes[core::UniformIndex(rng, std::size(kGlazes))];
+  const Paint& p = kGlazes[UniformIndex(draws, std::size(kGlazes))];
   return Look(p.material, p.r, p.g, p.b);
 }
 
@@ -89,7 +89,7 @@ core::Material Print(RigidDraft* draft) {
                                   {.92f, .72f, .22f},
                                   {.28f, .58f, .36f},
                                   {.55f, .30f, .56f}};
-  const auto& c = kColors[core::UniformIndex(draft->rng, std::size(kColors))];
+  const auto& c = kColors[UniformIndex(draft->draws, std::size(kColors))];
   return Look("print", c[0], c[1], c[2]);
 }
 
@@ -115,18 +115,26 @@ const RigidKind* FindRigidKind(const std::string& name) {
 }
 
 RigidObject MakeRigidObject(const RigidKind& kind, std::uint64_t seed) {
+  Options options;
+  options.seed = seed;
+  return MakeRigidObject(kind, options);
+}
+
+RigidObject MakeRigidObject(const RigidKind& kind, const Options& options) {
   const auto& base = physics_params::KnowledgeBase::Shipped();
   const physics_params::Category* row = base.FindCategory(kind.category);
   if (row == nullptr) throw core::Error("no such category in the knowledge base", kind.category);
   RigidObject object;
-  object.parameters = physics_params::SampleParameters(*row, base, seed);
+  object.parameters = physics_params::SampleParameters(*row, base, options.seed);
   RigidDraft draft;
   std::uint64_t stream = kStream;  // per kind: objects of one seed differ in colour
   for (const char c : kind.name) stream = 31 * stream + static_cast<unsigned char>(c);
-  draft.rng = core::StreamRng(seed, stream);
-  draft.look = LookOf(object.parameters.material, draft.rng);
+  draft.draws = Draws(core::StreamRng(options.seed, stream), options.draws);
+  draft.look = LookOf(object.parameters.material, draft.draws);
   draft.size = object.size = SizeOf(kind, object.parameters);
+  if (options.size) draft.size = object.size = *options.size;
   object.visual = kind.make(&draft);
+  if (options.record != nullptr) *options.record = draft.draws.record();
   object.parts = std::move(draft.parts);
   const Eigen::Affine3d fit = FitOf(object.size, core::Bounds(object.visual.mesh));
   core::Transform(fit, &object.visual.mesh);

@@ -6,7 +6,8 @@
 #include <Eigen/Core>
 
 #include "core/mesh.h"
-#include "core/random.h"
+#include "library/articulated/generator_options.h"
+#include "library/draws.h"
 #include "physics_params/physical_parameters.h"
 
 namespace simwright::library {
@@ -25,9 +26,9 @@ struct RigidObject {
 struct RigidDraft {
   Eigen::Vector3d size;  // m
   core::Material look;   // from the sampled material
-  core::Rng rng;
+  Draws draws;
   std::vector<core::TriangleMesh> parts;
-  double Draw(double low, double high) { return core::Uniform(rng, low, high); }
+  double Draw(double low, double high) { return Uniform(draws, low, high); }
 };
 
 void AddParts(const std::vector<core::TriangleMesh>& parts, RigidDraft* draft);
@@ -71,6 +72,8 @@ std::vector<RigidKind> ToyKinds();
 // the seed, and the same seed gives the same object. Throws core::Error if the base has no such
 // category.
 RigidObject MakeRigidObject(const RigidKind& kind, std::uint64_t seed);
+// Returns the object of given choices and size; the seed determines what they leave open.
+RigidObject MakeRigidObject(const RigidKind& kind, const Options& options);
 
 // Returns a material of plain colour.
 core::Material Look(const std::string& name, float r, float g, float b);
