@@ -52,7 +52,8 @@ void PrintTrainedJson(const std::vector<workflows::TrainedPrior>& trained) {
 // Returns true if a training has left a state for --resume, or final weights.
 bool HoldsState(const std::filesystem::path& folder) {
   return std::filesystem::exists(workflows::ShapeWeights(folder).string() + ".state") ||
-         std::filesystem::exists(workflows::ViewWeights(folder).string() + ".state");
+         std::filesystem::exists(workflows::ViewWeights(folder).string() + ".state") ||
+         std::filesystem::exists(workflows::LibraryWeights(folder).string() + ".state");
 }
 
 int TrainPriors(PriorFlags flags, const CommonOptions& common) {
@@ -60,8 +61,9 @@ int TrainPriors(PriorFlags flags, const CommonOptions& common) {
   if (flags.request.catalogues.empty() && !flags.parametric_only) {
     flags.request.catalogues = {workflows::DefaultTrainingCatalogue()};
   }
-  flags.request.shape = flags.only != "view";
-  flags.request.view = flags.only != "shape";
+  flags.request.shape = flags.only.empty() || flags.only == "shape";
+  flags.request.view = flags.only.empty() || flags.only == "view";
+  flags.request.library = flags.only.empty() || flags.only == "library";
   for (auto* options : {&flags.request.shape_options, &flags.request.view_options}) {
     options->seed = common.seed;
     options->trainer.resume = flags.resume;
@@ -69,6 +71,10 @@ int TrainPriors(PriorFlags flags, const CommonOptions& common) {
     if (flags.pool > 0) options->pool = flags.pool;
     if (flags.rate > 0.0) options->trainer.learning_rate = flags.rate;
   }
+  library_fit::LibraryTrainingOptions& library = flags.request.library_options;
+  library.seed = common.seed;
+  library.trainer.resume = flags.resume;
+  if (flags.rate > 0.0) library.trainer.learning_rate = flags.rate;
   if (!flags.from.empty()) {
     flags.request.shape_options.start = workflows::ShapeWeights(flags.from);
     flags.request.view_options.start = workflows::ViewWeights(flags.from);
@@ -115,9 +121,9 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_flag("--parametric-only", flags->parametric_only, "Train only on parametric shapes");
   command->add_option("-o,--output", flags->request.output, "The folder for the weights")
       ->required();
-  command->add_option("--only", flags->only, "Train only one of the two")
-      ->default_str("both")
-      ->check(CLI::IsMember({"shape", "view"}));
+  command->add_option("--only", flags->only, "Train only one of the three")
+      ->default_str("all")
+      ->check(CLI::IsMember({"shape", "view", "library"}));
   command
       ->add_option("--shape-steps", flags->request.shape_options.trainer.steps,
                    "Steps of the shape prior")
@@ -126,7 +132,16 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option("--view-steps", flags->request.view_options.trainer.steps,
                    "Steps of the view prior")
       ->capture_default_str();
-  command->add_option("--batch", flags->batch, "Photos per step")
+  command
+      ->add_option("--library-steps", flags->request.library_options.trainer.steps,
+                   "Steps of the library prior")
+      ->capture_default_str();
+  command
+      ->add_option("--library-pool", flags->request.library_options.pool,
+                   "Pictures in memory for the library prior")
+      ->check(Positive())
+      ->capture_default_str();
+  command->add_option("--batch", flags->batch, "Photos per step of shape and view prior")
       ->check(Positive())
       ->default_str("16");
   command->add_option("--pool", flags->pool, "Number of objects in the pool")

@@ -10,8 +10,9 @@ namespace {
 
 // Reports missing files before the minutes that reading takes.
 void RequireFiles(const PriorTrainingRequest& request) {
+  const bool needs_meshes = request.shape || request.view;
   for (const std::filesystem::path& path : request.catalogues) {
-    if (!std::filesystem::exists(path)) {
+    if (needs_meshes && !std::filesystem::exists(path)) {
       throw core::Error("no such catalogue", path.string(),
                         "./setup.sh --catalogue installs the one that the shipped weights learned "
                         "from; --parametric-only learns without one");
@@ -52,11 +53,16 @@ std::filesystem::path ViewWeights(const std::filesystem::path& folder) {
   return folder / "view_prior.pt";
 }
 
+std::filesystem::path LibraryWeights(const std::filesystem::path& folder) {
+  return folder / "library_prior.pt";
+}
+
 std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
                                       const TrainedPriorListener& listener) {
   RequireFiles(request);
   std::vector<core::TexturedMesh> meshes;
   for (const std::filesystem::path& path : request.catalogues) {
+    if (!request.shape && !request.view) break;
     std::vector<core::TexturedMesh> read = importers::ReadCatalogue(path, progress);
     std::move(read.begin(), read.end(), std::back_inserter(meshes));
   }
@@ -78,6 +84,12 @@ std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core:
     trained.push_back({"view", view,
                        asset_lift::TrainViewNetwork(meshes, shape, request.view_options, view,
                                                     progress, named("view", view))});
+  }
+  if (request.library) {
+    const std::filesystem::path library = LibraryWeights(request.output);
+    trained.push_back({"library", library,
+                       library_fit::TrainLibraryNetwork(request.library_options, library, progress,
+                                                        named("library", library))});
   }
   return trained;
 }

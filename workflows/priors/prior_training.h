@@ -7,6 +7,7 @@
 
 #include "asset_lift/priors/prior_training.h"
 #include "core/progress.h"
+#include "library_fit/library_training.h"
 
 namespace simwright::workflows {
 
@@ -16,7 +17,9 @@ struct PriorTrainingRequest {
   std::filesystem::path output;  // the weights' folder
   bool shape = true;             // trains the shape prior
   bool view = true;              // trains the view prior, which uses the shape prior in the folder
+  bool library = true;           // trains the prior of the library's kinds, on the library alone
   asset_lift::PriorTrainingOptions shape_options, view_options;
+  library_fit::LibraryTrainingOptions library_options;
 
   // Sets the options that reproduce the shipped weights.
   PriorTrainingRequest();
@@ -29,9 +32,10 @@ std::filesystem::path DefaultTrainingCatalogue();
 // Returns the path of each prior's weights in a folder.
 std::filesystem::path ShapeWeights(const std::filesystem::path& folder);
 std::filesystem::path ViewWeights(const std::filesystem::path& folder);
+std::filesystem::path LibraryWeights(const std::filesystem::path& folder);
 
 struct TrainedPrior {
-  std::string name;                        // "shape" or "view"
+  std::string name;                        // "shape", "view" or "library"
   std::filesystem::path weights;           // a file in the request's folder
   asset_lift::PriorTrainingReport report;  // the report on the last steps
 };

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "asset_lift/priors/prior_training.h"
+#include "core/progress.h"
+#include "nn/trainer_options.h"
+
+namespace simwright::library_fit {
+
+struct LibraryTrainingOptions {
+  nn::TrainerOptions trainer;
+  int batch = 64;     // pictures per step
+  int pool = 6000;    // pictures kept in memory: 16 KB each
+  int exchange = 12;  // pictures of the pool that each step replaces by new ones
+  // Training seeds of instances lie in [1, kHeldOutSeed); 0 samples others.
+  std::uint64_t seed = 1;
+
+  LibraryTrainingOptions();
+  // Returns false for invalid values, with the reason in `error` unless it is null.
+  bool IsValid(std::string* error) const;
+};
+
+// No training uses instances of this seed or a larger one: they are held out for evaluation.
+inline constexpr std::uint64_t kHeldOutSeed = 1'000'000'000;
+
+// Trains the library prior's network on renders of random instances of all kinds and writes the
+// averaged weights to the file `weights` every `trainer.save_every` steps; reports every 50 steps
+// and returns the last report. The metrics are the share of pictures
+// whose kind is right, the mean error of the azimuth of articulated kinds in degrees, and the mean
+// absolute error of the sizes' logarithms. Throws core::Error for invalid options and for weights
+// that cannot be written, and core::Cancelled after Ctrl-C; `trainer.resume` continues a cancelled
+// training.
+asset_lift::PriorTrainingReport TrainLibraryNetwork(
+    const LibraryTrainingOptions& options, const std::filesystem::path& weights,
+    core::Progress* progress, const asset_lift::PriorTrainingListener& report = {});
+
+}  // namespace simwright::library_fit
