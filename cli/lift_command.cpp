@@ -18,6 +18,7 @@ struct LiftFlags {
   std::vector<std::filesystem::path> photos;
   std::filesystem::path mask;
   std::filesystem::path cameras;
+  std::string shape = "auto";
   bool fast = false, outline = false, each = false;
   double ruler = 0.0;  // mm
   GeneratorFlags generator;
@@ -58,14 +59,12 @@ void LiftPrinter::Print(const workflows::LiftOutcome& outcome) {
 // refused instead of ignored.
 void RequireNoneUnused(const LiftFlags& flags) {
   const workflows::LiftRequest& one = flags.request;
-  const std::pair<bool, const char*> unused[] = {{one.height > 0.0, "--height"},
-                                                 {flags.fast, "--fast"},
-                                                 {flags.outline, "--outline"},
-                                                 {!one.prior.empty(), "--prior"},
-                                                 {one.elevation_degrees >= 0.0, "--elevation"},
-                                                 {one.fov_degrees > 0.0, "--fov"},
-                                                 {one.segmenter != nullptr, "--segmenter"},
-                                                 {one.generator.given(), "--generator"}};
+  const std::pair<bool, const char*> unused[] = {
+      {one.height > 0.0, "--height"},        {flags.fast, "--fast"},
+      {flags.outline, "--outline"},          {flags.shape != "auto", "--shape"},
+      {!one.prior.empty(), "--prior"},       {one.elevation_degrees >= 0.0, "--elevation"},
+      {one.fov_degrees > 0.0, "--fov"},      {one.segmenter != nullptr, "--segmenter"},
+      {one.generator.given(), "--generator"}};
   for (const auto& [given, option] : unused) {
     if (!given) continue;
     throw core::Error(std::string(option) + " is not used with photos on a mat", "",
@@ -91,12 +90,16 @@ int Lift(LiftFlags flags, const CommonOptions& common) {
   flags.request.force = common.force;
   ApplyGenerator(flags.generator, &flags.request);
   if (!flags.mask.empty()) flags.request.mask = flags.mask;
+  flags.request.shape = flags.shape == "fitted" ? workflows::LiftShape::kFitted
+                        : flags.shape == "free" ? workflows::LiftShape::kFree
+                                                : workflows::LiftShape::kAuto;
   if (flags.fast) flags.request.effort = asset_lift::LiftEffort::kFast;
   if (flags.outline) flags.request.effort = asset_lift::LiftEffort::kOutline;
   if (!flags.cameras.empty()) {
     if (flags.photos.size() < 2) throw core::Error("--cameras needs several photos of one object");
     if (flags.request.mask) throw core::Error("--mask needs a single photo");
     if (flags.request.segmenter) throw core::Error("--segmenter is not used with --cameras");
+    if (flags.shape == "fitted") throw core::Error("--shape fitted is not used with --cameras");
     const workflows::LiftRequest& one = flags.request;
     printer.Print(workflows::LiftToFolder(
         workflows::MultiLiftRequest{flags.photos, flags.cameras, one.category, one.height, one.size,
@@ -181,6 +184,12 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
                    "Field of view along the longer side, degrees")
       ->check(CLI::Range(1.0, 160.0))
       ->default_str("EXIF, else 35");
+  command
+      ->add_option("--shape", flags->shape,
+                   "fitted: an object of the library, articulated if its kind is; free: "
+                   "reconstructed; auto: the one that agrees better with the photo")
+      ->check(CLI::IsMember({"auto", "fitted", "free"}))
+      ->capture_default_str();
   AddGenerator(command, &flags->generator, &flags->request);
   AddCommon(command, common);
   AddForce(command, common);

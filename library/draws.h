@@ -33,7 +33,7 @@ class Draws {
   std::vector<double> given_, record_;
 };
 
-// As the functions of core/random.h of the same names.
+// Return what the functions of core/random.h of the same names return.
 inline double Uniform(Draws& draws) {
   return draws.Next();
 }

@@ -1,5 +1,6 @@
 #include "library_fit/fit_kinds.h"
 
+#include <algorithm>
 #include <map>
 
 #include "core/random.h"
@@ -23,6 +24,21 @@ std::map<std::string, double> PositionsOf(const assets::ArticulatedAsset& asset,
   return {};
 }
 
+// Returns the categories of the instances of the first seeds.
+std::vector<std::string> CategoriesOf(const library::Kind& kind) {
+  std::vector<std::string> categories;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    library::Options options;
+    options.seed = seed;
+    options.appearance_only = true;
+    const std::string category = kind.make(options).parameters.category;
+    if (std::find(categories.begin(), categories.end(), category) == categories.end()) {
+      categories.push_back(category);
+    }
+  }
+  return categories;
+}
+
 }  // namespace
 
 const std::vector<FitKind>& FitKinds() {
@@ -30,14 +46,25 @@ const std::vector<FitKind>& FitKinds() {
     std::vector<FitKind> all;
     for (const library::Kind& kind : library::Kinds()) {
       const double opening = kind.name == "laptop" ? 1.0 : 0.0;
-      all.push_back({kind.name, kind.name, &kind, nullptr, opening});
+      all.push_back({kind.name, CategoriesOf(kind), &kind, nullptr, opening});
     }
     for (const library::RigidKind& kind : library::RigidKinds()) {
-      all.push_back({kind.name, kind.category, nullptr, &kind, 0.0});
+      all.push_back({kind.name, {kind.category}, nullptr, &kind, 0.0});
     }
     return all;
   }();
   return kKinds;
+}
+
+std::vector<int> KindsOfCategory(const std::string& category) {
+  std::vector<int> kinds;
+  for (size_t i = 0; i < FitKinds().size(); ++i) {
+    const std::vector<std::string>& rows = FitKinds()[i].categories;
+    if (category == "object" || std::find(rows.begin(), rows.end(), category) != rows.end()) {
+      kinds.push_back(static_cast<int>(i));
+    }
+  }
+  return kinds;
 }
 
 int FindFitKind(const std::string& name) {

@@ -15,8 +15,10 @@ namespace simwright::library_fit {
 
 // A kind of the library that can be fitted to a photo.
 struct FitKind {
-  std::string name;                            // "microwave"
-  std::string category;                        // row of the knowledge base, "" if it has none
+  std::string name;  // "microwave"
+  // The rows of the knowledge base that its generator samples from; of light switches there is no
+  // row, only the name.
+  std::vector<std::string> categories;
   const library::Kind* articulated = nullptr;  // exactly one of the two is set
   const library::RigidKind* rigid = nullptr;
   // The largest share of the first joint's range at which photos usually show it: 1 for laptops,
@@ -26,6 +28,8 @@ struct FitKind {
 
 // Returns the articulated kinds, then the rigid ones, in the order of the library.
 const std::vector<FitKind>& FitKinds();
+// Returns the kinds of a category, by the name of its row; all kinds for "object".
+std::vector<int> KindsOfCategory(const std::string& category);
 // Returns the index of the kind of that name, or -1.
 int FindFitKind(const std::string& name);
 

@@ -87,7 +87,7 @@ LibraryPrior::LibraryPrior(const std::filesystem::path& weights)
   const auto kinds = card.find("kinds");
   if (kinds == card.end() || kinds->second != std::to_string(FitKinds().size())) {
     throw core::Error("the library prior was trained for another list of kinds", weights.string(),
-                      "train it anew: simwright prior train --only library");
+                      "train it again: simwright prior train --only library");
   }
   network_->net = LibraryNetwork(static_cast<int>(FitKinds().size()));
   nn::LoadCheckpoint(weights, "library", network_->net.get());

@@ -15,6 +15,7 @@
 #include "validation/appearance.h"
 #include "validation/check_report.h"
 #include "workflows/lift/cut_out.h"
+#include "workflows/lift/fitted_lift.h"
 #include "workflows/lift/generated_lift.h"
 #include "workflows/lift/lift_finishing.h"
 #include "workflows/priors/prior_weights.h"
@@ -175,12 +176,14 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
   options.focal_35mm = core::ExifFocalLength35mm(bytes);
   options.segmentation.network = request.segmenter;
   options.seed = request.seed;
-  options.effort = request.effort;
+  // A fit needs the object's outline alone.
+  options.effort =
+      request.shape == LiftShape::kFitted ? asset_lift::LiftEffort::kOutline : request.effort;
   if (!request.prior.empty()) asset_lift::ConfigureForPublishedViewPrior(&options);
   const auto start = std::chrono::steady_clock::now();
   core::Findings findings;
   asset_lift::LiftPriors priors;
-  if (request.effort != asset_lift::LiftEffort::kOutline) {
+  if (options.effort != asset_lift::LiftEffort::kOutline) {
     priors = LoadLiftPriors(request.prior, &findings);
   }
   asset_lift::LiftedMesh lifted;
@@ -191,6 +194,14 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
     throw core::Error(error.what(), request.photo.string());
   }
   lifted.findings.insert(lifted.findings.begin(), findings.begin(), findings.end());
+  if (request.shape != LiftShape::kFree) {
+    const std::optional<ChosenFit> chosen =
+        ChooseFit(request.shape, finishing, lifted, &lifted.findings, progress);
+    if (chosen && chosen->articulated) {
+      return FinishArticulated(*chosen, finishing, LiftSeconds(start), lifted, &staged);
+    }
+    if (chosen) TakeFit(*chosen, &lifted);
+  }
   return FinishLift(finishing, LiftSeconds(start), std::move(lifted), &staged, progress);
 }
 

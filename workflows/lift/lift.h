@@ -16,6 +16,13 @@
 
 namespace simwright::workflows {
 
+// The road from a photo to a shape.
+enum class LiftShape {
+  kAuto,    // kFitted where it agrees better with the photo, else kFree
+  kFitted,  // an object of the library (docs/library.md), articulated or rigid, fitted to the photo
+  kFree     // the reconstruction of asset_lift
+};
+
 struct LiftRequest {
   std::filesystem::path photo;
   std::string category;  // required
@@ -26,6 +33,7 @@ struct LiftRequest {
   physics_params::StatedPhysics stated;
   double elevation_degrees = -1.0;  // negative: estimated
   double fov_degrees = 0.0;         // 0: EXIF or the default
+  LiftShape shape = LiftShape::kFree;
   asset_lift::LiftEffort effort = asset_lift::LiftEffort::kFull;
   std::filesystem::path prior;  // the user's TorchScript view prior; empty: the shipped one
   // If given, it makes the mesh in place of the reconstruction: the fields from elevation_degrees

@@ -1,0 +1,104 @@
+#include "library_fit/fitted_object.h"
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "core/error.h"
+#include "library_fit/fit_loss.h"
+#include "render/forward.h"
+#include "texture/photo_projection.h"
+
+namespace simwright::library_fit {
+namespace {
+
+constexpr int kComparedSide = 96;  // pixels per side of the crop in which shapes are compared
+constexpr int kColorSide = 160;    // of the crop from which colours are taken
+constexpr int kLeastPixels = 6;    // of a look, for a mean colour
+
+FitTarget TargetOf(const FitPhoto& photo, int side) {
+  return MakeFitTarget(asset_lift::CropView(photo.photo, photo.alpha, photo.frame, side));
+}
+
+// Returns the camera for the pixels of the photo's crop of `side` pixels.
+core::Camera ToCrop(core::Camera camera, const FitPhoto& photo, int side) {
+  const double scale = side / (2.0 * photo.frame.half);
+  camera.cx = (camera.cx - photo.frame.center_x + photo.frame.half) * scale;
+  camera.cy = (camera.cy - photo.frame.center_y + photo.frame.half) * scale;
+  camera.fx *= scale;
+  camera.fy *= scale;
+  camera.width = camera.height = side;
+  return camera;
+}
+
+// Returns the mean colours in the photo of the looks that it shows, by their names.
+std::map<std::string, Eigen::Vector3f> SeenColors(const FittedInstance& fit,
+                                                  const FitPhoto& photo) {
+  const FitTarget target = TargetOf(photo, kColorSide);
+  const core::TexturedMesh mesh = InstanceMesh(fit.instance);
+  render::Scene scene;
+  scene.Add(&mesh);
+  scene.Commit();
+  const render::ForwardBuffers seen =
+      render::RenderForward(scene, ToCrop(PhotoCamera(fit, photo), photo, kColorSide));
+  std::map<std::string, std::pair<Eigen::Vector3f, int>> sums;
+  for (size_t i = 0; i < seen.triangle.size(); ++i) {
+    if (seen.triangle[i] < 0 || target.opacity[i] < 0.9f) continue;
+    const auto material =
+        static_cast<size_t>(mesh.triangle_material[static_cast<size_t>(seen.triangle[i])]);
+    auto& [sum, count] =
+        sums.try_emplace(mesh.materials[material].name, Eigen::Vector3f::Zero(), 0).first->second;
+    sum += target.color[i];
+    ++count;
+  }
+  std::map<std::string, Eigen::Vector3f> colors;
+  for (const auto& [look, entry] : sums) {
+    if (entry.second >= kLeastPixels) colors[look] = entry.first / static_cast<float>(entry.second);
+  }
+  return colors;
+}
+
+}  // namespace
+
+FittedMesh TexturedFit(const FittedInstance& fit, const FitPhoto& photo) {
+  core::TexturedMesh mesh = InstanceMesh(fit.instance);
+  core::Camera camera = PhotoCamera(fit, photo);
+  const Eigen::Vector3d middle = core::Bounds(mesh.mesh).center();
+  const Eigen::Vector3d eye = camera.position() - middle;
+  const Eigen::Isometry3d turn(
+      Eigen::AngleAxisd(-M_PI / 2 - std::atan2(eye.y(), eye.x()), Eigen::Vector3d::UnitZ()));
+  core::Transform(Eigen::Affine3d(turn), &mesh.mesh);
+  camera.world_from_camera = turn * camera.world_from_camera;
+  const Eigen::Hyperplane<double, 3> mirror(Eigen::Vector3d::UnitY(),
+                                            core::Bounds(mesh.mesh).center());
+  return {texture::ProjectPhoto(mesh.mesh, camera, photo.photo, photo.alpha, mirror), camera};
+}
+
+assets::ArticulatedAsset FittedAsset(const FittedInstance& fit, const FitPhoto& photo,
+                                     double height) {
+  const FitKind& kind = FitKinds().at(static_cast<size_t>(fit.instance.kind));
+  if (kind.articulated == nullptr) throw core::Error("a rigid kind has no joints", kind.name);
+  Instance instance = fit.instance;
+  if (height > 0.0) {
+    const double fitted = assets::BoundsAtZero(InstanceAsset(instance)).sizes().z();
+    instance.size *= height / fitted;
+  }
+  assets::ArticulatedAsset asset = InstanceAsset(instance);
+  const std::map<std::string, Eigen::Vector3f> colors = SeenColors(fit, photo);
+  for (assets::ArticulatedLink& link : asset.links) {
+    for (core::Material& material : link.visual.materials) {
+      const auto seen = colors.find(material.name);
+      if (seen != colors.end()) material.base_color.head<3>() = seen->second;
+    }
+  }
+  return asset;
+}
+
+PhotoAgreement AgreementWithPhoto(const core::TexturedMesh& mesh, const core::Camera& camera,
+                                  const FitPhoto& photo) {
+  const FitAgreement agreement =
+      CompareWithPhoto(mesh, ToCrop(camera, photo, kComparedSide), TargetOf(photo, kComparedSide));
+  return {agreement.iou, agreement.edge_error};
+}
+
+}  // namespace simwright::library_fit

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "assets/articulated_asset.h"
+#include "core/camera.h"
+#include "core/mesh.h"
+#include "library_fit/library_fit.h"
+
+namespace simwright::library_fit {
+
+// A mesh with the camera that sees it as the photo shows it.
+struct FittedMesh {
+  core::TexturedMesh mesh;
+  core::Camera camera;  // for the photo's pixels, in the mesh's frame
+};
+
+// Returns the fitted object as one mesh of the fitted size (m), z up, turned so that the camera is
+// on the side of -y. Visible sides take the photo's colours, the others those of the mirror image
+// across the plane that faces the camera, or of their surroundings (texture/photo_projection.h).
+// Throws core::Error where the camera sees nothing of the mesh.
+FittedMesh TexturedFit(const FittedInstance& fit, const FitPhoto& photo);
+
+// Returns the fitted articulated object in the library's frame, the front towards -x. Each look of
+// its parts takes its mean colour in the photo; looks that the photo does not show keep the
+// library's. `height`: of the asset, m; 0: as fitted. Throws core::Error for a rigid kind.
+assets::ArticulatedAsset FittedAsset(const FittedInstance& fit, const FitPhoto& photo,
+                                     double height = 0.0);
+
+// The agreement of any mesh, seen by a camera for the photo's pixels, with the photo.
+struct PhotoAgreement {
+  double iou = 0.0;         // of the outlines in the crop
+  double edge_error = 1.0;  // as FittedInstance::edge_error
+  // The smaller the better: what `--shape auto` compares.
+  double Disagreement() const { return 2.0 * (1.0 - iou) + 0.6 * edge_error; }
+};
+PhotoAgreement AgreementWithPhoto(const core::TexturedMesh& mesh, const core::Camera& camera,
+                                  const FitPhoto& photo);
+
+}  // namespace simwright::library_fit

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "asset_lift/lift.h"
+#include "core/finding.h"
+#include "library_fit/library_fit.h"
+#include "workflows/lift/lift_finishing.h"
+
+namespace simwright::workflows {
+
+// A fit of the library that takes the place of the free form.
+struct ChosenFit {
+  library_fit::FittedInstance fit;
+  library_fit::FitPhoto photo;
+  bool articulated = false;
+};
+
+// Fits the library's kinds of the category to the reconstructed photo, and returns the best fit if
+// it is chosen: always for kFitted; for kAuto if its outline and edges agree with the photo better
+// than those of the free form, `lifted`. Adds a finding that states the choice and its reason,
+// unless the library has no kind of the category and kAuto was asked for. Throws core::Error for
+// kFitted if there is no such kind, or if the weights of the library prior are missing.
+std::optional<ChosenFit> ChooseFit(LiftShape shape, const Finishing& finishing,
+                                   const asset_lift::LiftedMesh& lifted, core::Findings* findings,
+                                   core::Progress* progress);
+
+// Replaces the mesh and the camera by those of a rigid fit.
+void TakeFit(const ChosenFit& chosen, asset_lift::LiftedMesh* lifted);
+
+// Writes the folder of an articulated fit, which `staged` then commits: the asset, preview.png,
+// matte.png, and lift.png (the photo, the matte, and the fit from the photo's camera). Throws as
+// validation::CheckBeforeKeeping does if the asset fails its checks.
+LiftOutcome FinishArticulated(const ChosenFit& chosen, const Finishing& finishing,
+                              double lift_seconds, const asset_lift::LiftedMesh& lifted,
+                              core::StagedFolder* staged);
+
+}  // namespace simwright::workflows
