@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kComparedSide = 96;  // pixels per side of the crop in which shapes are compared
 constexpr int kColorSide = 160;    // of the crop from which colours are taken
+constexpr int kHeightSteps = 4;    // of the size towards a given height
 constexpr int kLeastPixels = 6;    // of a look, for a mean colour
 
 FitTarget TargetOf(const FitPhoto& photo, int side) {
@@ -79,9 +80,9 @@ assets::ArticulatedAsset FittedAsset(const FittedInstance& fit, const FitPhoto& 
   const FitKind& kind = FitKinds().at(static_cast<size_t>(fit.instance.kind));
   if (kind.articulated == nullptr) throw core::Error("a rigid kind has no joints", kind.name);
   Instance instance = fit.instance;
-  if (height > 0.0) {
-    const double fitted = assets::BoundsAtZero(InstanceAsset(instance)).sizes().z();
-    instance.size *= height / fitted;
+  // Some measures of the generators do not scale, such as those of handles and burners.
+  for (int i = 0; height > 0.0 && i < kHeightSteps; ++i) {
+    instance.size *= height / core::Bounds(InstanceMesh(instance).mesh).sizes().z();
   }
   assets::ArticulatedAsset asset = InstanceAsset(instance);
   const std::map<std::string, Eigen::Vector3f> colors = SeenColors(fit, photo);

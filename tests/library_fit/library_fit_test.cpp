@@ -232,14 +232,14 @@ TEST(LibraryTraining, ASmallTrainingLearnsAndWritesWeights) {
   const fs::path folder = fs::path(testing::TempDir()) / "library_training";
   fs::create_directories(folder);
   LibraryTrainingOptions options;
-  options.trainer.steps = 12;
-  options.trainer.save_every = 12;
-  options.batch = 16;
-  options.pool = 32;
+  options.trainer.steps = 8;
+  options.trainer.save_every = 8;
+  options.batch = 8;
+  options.pool = 16;
   options.exchange = 2;
   core::Progress progress;
   const auto report = TrainLibraryNetwork(options, folder / "library_prior.pt", &progress);
-  EXPECT_EQ(report.step, 12);
+  EXPECT_EQ(report.step, 8);
   EXPECT_TRUE(std::isfinite(report.loss));
   // The mean over the steps is below that of guessing: log 94 for the kind, half of log 36 for the
   // azimuth, and up to 17 choices of 0.3 log 12 each.
