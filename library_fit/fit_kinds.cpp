@@ -57,14 +57,20 @@ const std::vector<FitKind>& FitKinds() {
 }
 
 std::vector<int> KindsOfCategory(const std::string& category) {
-  std::vector<int> kinds;
-  for (size_t i = 0; i < FitKinds().size(); ++i) {
-    const std::vector<std::string>& rows = FitKinds()[i].categories;
-    if (category == "object" || std::find(rows.begin(), rows.end(), category) != rows.end()) {
-      kinds.push_back(static_cast<int>(i));
+  const auto matching = [](const std::string& name) {
+    std::vector<int> kinds;
+    for (size_t i = 0; i < FitKinds().size(); ++i) {
+      const std::vector<std::string>& rows = FitKinds()[i].categories;
+      if (name == "object" || std::find(rows.begin(), rows.end(), name) != rows.end()) {
+        kinds.push_back(static_cast<int>(i));
+      }
     }
-  }
-  return kinds;
+    return kinds;
+  };
+  const std::vector<int> kinds = matching(category);
+  const size_t space = category.rfind(' ');
+  if (!kinds.empty() || space == std::string::npos) return kinds;
+  return matching(category.substr(space + 1));
 }
 
 int FindFitKind(const std::string& name) {

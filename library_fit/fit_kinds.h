@@ -28,7 +28,8 @@ struct FitKind {
 
 // Returns the articulated kinds, then the rigid ones, in the order of the library.
 const std::vector<FitKind>& FitKinds();
-// Returns the kinds of a category, by the name of its row; all kinds for "object".
+// Returns the kinds of a category, by the name of its row; all kinds for "object". A row without a
+// kind has those of its last word: a coffee cup is fitted as a cup.
 std::vector<int> KindsOfCategory(const std::string& category);
 // Returns the index of the kind of that name, or -1.
 int FindFitKind(const std::string& name);

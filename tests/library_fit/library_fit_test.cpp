@@ -80,6 +80,7 @@ TEST(FitKinds, EachHasItsCategories) {
   EXPECT_EQ(KindsOfCategory("microwave"), std::vector<int>{FindFitKind("microwave")});
   EXPECT_EQ(KindsOfCategory("nightstand"), std::vector<int>{FindFitKind("drawer_unit")});
   EXPECT_EQ(KindsOfCategory("object").size(), FitKinds().size());
+  EXPECT_EQ(KindsOfCategory("coffee cup"), KindsOfCategory("cup"));
   EXPECT_TRUE(KindsOfCategory("elephant").empty());
   EXPECT_EQ(FindFitKind("elephant"), -1);
 }

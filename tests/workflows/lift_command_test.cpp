@@ -146,5 +146,29 @@ TEST(LiftCommand, AFitIsTheSameTwice) {
   EXPECT_GE(files, 10);
 }
 
+// A brown board is fitted as a brick: a solid with planes.
+TEST(LiftCommand, ShapeFittedTakesAnObjectOfTheLibrary) {
+  const core::TemporaryFolder folder;
+  core::Image photo(160, 160, 4);
+  for (int y = 50; y < 110; ++y) {
+    for (int x = 20; x < 140; ++x) {
+      photo.At(x, y)[0] = 150;
+      photo.At(x, y)[1] = y < 80 ? 90 : 60;
+      photo.At(x, y)[3] = 255;
+    }
+  }
+  core::WriteFile(folder.path() / "front.png", core::EncodePng(photo));
+  const std::string lift = "lift " + (folder.path() / "front.png").string() + " -o " +
+                           (folder.path() / "out").string() + " --shape ";
+  const Outcome fitted = RunProgram(lift + "fitted --category brick");
+  ASSERT_EQ(fitted.code, 0) << fitted.text;
+  EXPECT_NE(fitted.text.find("[shape-fitted]"), std::string::npos) << fitted.text;
+  const std::string asset = core::ReadFile(folder.path() / "out" / "asset.json");
+  EXPECT_NE(asset.find("shape-fitted"), std::string::npos);
+  const Outcome unknown = RunProgram(lift + "fitted --force --category elephant");
+  EXPECT_EQ(unknown.code, 1) << unknown.text;
+  EXPECT_EQ(RunProgram(lift + "round --category brick").code, 2);
+}
+
 }  // namespace
 }  // namespace simwright

@@ -41,28 +41,38 @@ std::string Unusable(const Finishing& finishing) {
   return "";
 }
 
+constexpr const char* kNoWeights = "the weights of the library prior are missing";
+constexpr const char* kTrainThem = "simwright prior train --only library -o models makes them";
+
+bool HasLibraryWeights() {
+  const fs::path folder = ModelsFolder();
+  return !folder.empty() && fs::exists(LibraryWeights(folder));
+}
+
 }  // namespace
+
+void RequireFittable(const Finishing& finishing) {
+  const std::string& category = finishing.category.category->name;
+  if (library_fit::KindsOfCategory(category).empty()) {
+    throw core::Error("the library has no kind of the category '" + category + "'",
+                      finishing.source,
+                      "leave out --shape fitted; simwright library --list prints the kinds");
+  }
+  if (!HasLibraryWeights()) throw core::Error(kNoWeights, ModelsFolder().string(), kTrainThem);
+}
 
 std::optional<ChosenFit> ChooseFit(LiftShape shape, const Finishing& finishing,
                                    const asset_lift::LiftedMesh& lifted, core::Findings* findings,
                                    core::Progress* progress) {
   const std::string& category = finishing.category.category->name;
-  const fs::path folder = ModelsFolder(), weights = LibraryWeights(folder);
-  const bool have_weights = !folder.empty() && fs::exists(weights);
+  const fs::path weights = LibraryWeights(ModelsFolder());
   library_fit::LibraryFitOptions options;
   options.kinds = library_fit::KindsOfCategory(category);
   options.seed = finishing.seed;
-  if (shape == LiftShape::kFitted && options.kinds.empty()) {
-    throw core::Error("the library has no kind of the category '" + category + "'",
-                      finishing.source,
-                      "leave out --shape fitted; simwright library --list prints the kinds");
-  }
   if (options.kinds.empty()) return {};
-  if (!have_weights) {
-    const std::string missing = "the weights of the library prior are missing";
-    const std::string remedy = "simwright prior train --only library -o models makes them";
-    if (shape == LiftShape::kFitted) throw core::Error(missing, folder.string(), remedy);
-    AddChoice("shape-free", missing + " (" + remedy + ")", 0.0, finishing, findings);
+  if (!HasLibraryWeights()) {
+    AddChoice("shape-free", std::string(kNoWeights) + " (" + kTrainThem + ")", 0.0, finishing,
+              findings);
     return {};
   }
   progress->Stage("fitting the library");
@@ -78,8 +88,8 @@ std::optional<ChosenFit> ChooseFit(LiftShape shape, const Finishing& finishing,
       library_fit::PhotoCamera(chosen.fit, chosen.photo), chosen.photo);
   const std::string ours =
       "the fitted " + kind.name + " has " + AgreementText(fitted.iou, fitted.edge_error);
+  const std::string unusable = chosen.articulated ? Unusable(finishing) : "";
   if (shape == LiftShape::kFitted) {
-    const std::string unusable = chosen.articulated ? Unusable(finishing) : "";
     if (!unusable.empty()) throw core::Error(unusable, finishing.source);
     AddChoice("shape-fitted", ours, fitted.iou, finishing, findings);
     return chosen;
@@ -90,7 +100,6 @@ std::optional<ChosenFit> ChooseFit(LiftShape shape, const Finishing& finishing,
       ours + ", the free form " + AgreementText(free_form.iou, free_form.edge_error);
   const bool credible = fitted.iou >= kLeastOutline &&
                         (category != "object" || chosen.fit.probability >= kLeastProbability);
-  const std::string unusable = chosen.articulated ? Unusable(finishing) : "";
   if (!credible || !unusable.empty() || fitted.Disagreement() >= free_form.Disagreement()) {
     AddChoice("shape-free", unusable.empty() ? both : both + "; " + unusable, fitted.iou, finishing,
               findings);

@@ -16,11 +16,15 @@ struct ChosenFit {
   bool articulated = false;
 };
 
+// Throws core::Error if the library has no kind of the category, or if the weights of the library
+// prior are missing.
+void RequireFittable(const Finishing& finishing);
+
 // Fits the library's kinds of the category to the reconstructed photo, and returns the best fit if
 // it is chosen: always for kFitted; for kAuto if its outline and edges agree with the photo better
 // than those of the free form, `lifted`. Adds a finding that states the choice and its reason,
-// unless the library has no kind of the category and kAuto was asked for. Throws core::Error for
-// kFitted if there is no such kind, or if the weights of the library prior are missing.
+// unless the library has no kind of the category. Throws core::Error for kFitted if the request
+// states what an articulated asset cannot take.
 std::optional<ChosenFit> ChooseFit(LiftShape shape, const Finishing& finishing,
                                    const asset_lift::LiftedMesh& lifted, core::Findings* findings,
                                    core::Progress* progress);

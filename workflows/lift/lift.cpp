@@ -165,6 +165,7 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
                       request.stated,
                       false,
                       request.seed};
+  if (request.shape == LiftShape::kFitted) RequireFittable(finishing);
   const std::string bytes = core::ReadFile(request.photo, 1ull << 30);
   asset_lift::LiftOptions options;
   core::ImageReadOptions read;
