@@ -51,7 +51,7 @@ macro(simwright_require link)
     find_package(nlohmann_json REQUIRED)
   elseif("${link}" MATCHES "^opencv_")
     find_package(OpenCV REQUIRED COMPONENTS core dnn imgproc imgcodecs saliency ximgproc calib3d
-                 aruco)
+                 features2d aruco)
   elseif("${link}" STREQUAL "Ceres::ceres")
     find_package(Ceres REQUIRED)
   elseif("${link}" STREQUAL "CGAL::CGAL")

@@ -57,6 +57,21 @@ core::Image Blotches(int side, int cell, const Eigen::Vector3d& color, double co
   return image;
 }
 
+// Returns a texture with blotches of several sizes, the smallest of `cell` pixels.
+core::Image FineBlotches(int side, int cell, const Eigen::Vector3d& color, core::Rng* rng) {
+  const core::Image layers[] = {Blotches(side, 12 * cell, color, 0.5, rng),
+                                Blotches(side, 3 * cell, color, 0.5, rng),
+                                Blotches(side, cell, color, 0.6, rng)};
+  core::Image image(side, side, 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const double mean = color[static_cast<int>(i % 3)];
+    double value = mean;
+    for (const core::Image& layer : layers) value += layer.pixels[i] - mean;
+    image.pixels[i] = static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0));
+  }
+  return image;
+}
+
 core::TexturedMesh Surroundings(const MatPhotoOptions& options) {
   core::Rng rng(options.seed);
   core::TexturedMesh room;
@@ -65,7 +80,9 @@ core::TexturedMesh Surroundings(const MatPhotoOptions& options) {
            {kTable, -kTable, -0.001},
            {kTable, kTable, -0.001},
            {-kTable, kTable, -0.001}},
-          Blotches(512, 16, {140, 105, 75}, 0.35, &rng), &room);
+          options.fine_table ? FineBlotches(2048, 8, {140, 105, 75}, &rng)
+                             : Blotches(512, 16, {140, 105, 75}, 0.35, &rng),
+          &room);
   for (int side = 0; side < 4; ++side) {
     const Eigen::AngleAxisd turn(side * std::numbers::pi / 2, Eigen::Vector3d::UnitZ());
     const Eigen::Vector3d color(core::Uniform(rng, 80, 200), core::Uniform(rng, 80, 200),
@@ -111,12 +128,25 @@ Eigen::Vector2d DirectionAt(const Lens& lens, const Eigen::Vector2d& pixel) {
   return at;
 }
 
+// Returns the direction that the lens shows at each pixel's centre, row by row.
+std::vector<Eigen::Vector2d> PixelDirections(const Lens& lens) {
+  std::vector<Eigen::Vector2d> directions(static_cast<std::size_t>(lens.width) * lens.height);
+  core::ParallelFor(lens.height, [&](int y) {
+    for (int x = 0; x < lens.width; ++x) {
+      directions[static_cast<std::size_t>(y) * lens.width + x] =
+          DirectionAt(lens, {x + 0.5, y + 0.5});
+    }
+  });
+  return directions;
+}
+
 // Samples the pinhole image where the lens shows it.
-core::Image Distort(const core::Image& straight, const core::Camera& camera, const Lens& lens) {
+core::Image Distort(const core::Image& straight, const core::Camera& camera, const Lens& lens,
+                    const std::vector<Eigen::Vector2d>& directions) {
   core::Image photo(lens.width, lens.height, 3);
   core::ParallelFor(lens.height, [&](int y) {
     for (int x = 0; x < lens.width; ++x) {
-      const Eigen::Vector2d at = DirectionAt(lens, {x + 0.5, y + 0.5});
+      const Eigen::Vector2d& at = directions[static_cast<std::size_t>(y) * lens.width + x];
       const double u = std::clamp(camera.fx * at.x() + camera.cx - 0.5, 0.0, camera.width - 1.001);
       const double v = std::clamp(camera.fy * at.y() + camera.cy - 0.5, 0.0, camera.height - 1.001);
       const int i = static_cast<int>(u), j = static_cast<int>(v);
@@ -157,6 +187,23 @@ core::TexturedMesh PlainBox(const Eigen::Vector3d& sides, const Eigen::Vector3f&
   paint.base_color << color, 1.0f;
   box.materials.push_back(paint);
   box.triangle_material.assign(12, 0);
+  return box;
+}
+
+core::TexturedMesh PaintedBox(const Eigen::Vector3d& sides, std::uint64_t seed) {
+  core::Rng rng(seed);
+  const auto corner = [&](int i) {
+    return Eigen::Vector3d(sides.x() * ((i & 1) - 0.5), sides.y() * ((i >> 1 & 1) - 0.5),
+                           sides.z() * (i >> 2));
+  };
+  core::TexturedMesh box;
+  for (const auto& [a, b, c, d] :
+       {std::array{0, 1, 5, 4}, std::array{1, 3, 7, 5}, std::array{3, 2, 6, 7},
+        std::array{2, 0, 4, 6}, std::array{4, 5, 7, 6}, std::array{2, 3, 1, 0}}) {
+    const Eigen::Vector3d color(core::Uniform(rng, 60, 200), core::Uniform(rng, 60, 200),
+                                core::Uniform(rng, 60, 200));
+    AddQuad({corner(a), corner(b), corner(c), corner(d)}, FineBlotches(384, 6, color, &rng), &box);
+  }
   return box;
 }
 
@@ -215,12 +262,13 @@ std::vector<MatPhoto> RenderMatPhotos(const core::TexturedMesh& object,
   camera.fy = lens.fy;
   camera.cx = lens.cx + 0.5 * (camera.width - lens.width);
   camera.cy = lens.cy + 0.5 * (camera.height - lens.height);
+  const std::vector<Eigen::Vector2d> directions = PixelDirections(lens);
   std::vector<MatPhoto> photos;
   core::Rng rng(options.seed + 1);
   for (const Eigen::Isometry3d& pose : poses) {
     camera.world_from_camera = pose;
     const render::ForwardBuffers buffers = render::RenderForward(scene, camera, forward);
-    MatPhoto photo{Distort(buffers.color, camera, lens), pose};
+    MatPhoto photo{Distort(buffers.color, camera, lens, directions), pose};
     for (std::uint8_t& value : photo.photo.pixels) {
       value = static_cast<std::uint8_t>(
           std::clamp(std::lround(value + options.noise * core::Normal(rng)), 0l, 255l));

@@ -14,9 +14,10 @@ namespace simwright::capture {
 // Settings of rendered photos of an object on a mat: the ground truth of a capture.
 struct MatPhotoOptions {
   PaperSize paper = PaperSize::kA4;
-  bool mat = true;     // false: the table alone
-  Lens lens;           // of all photos
-  double noise = 2.0;  // standard deviation, of 255
+  bool mat = true;          // false: the table alone
+  bool fine_table = false;  // a table with details of millimetres, in which features are found
+  Lens lens;                // of all photos
+  double noise = 2.0;       // standard deviation, of 255
   int jpeg_quality = 92;
   int samples_per_side = 2;
   std::uint64_t seed = 1;
@@ -29,6 +30,10 @@ struct MatPhoto {
 
 // Returns a box of one colour (sRGB) that stands on z = 0 around the z axis. `sides`: m.
 core::TexturedMesh PlainBox(const Eigen::Vector3d& sides, const Eigen::Vector3f& color);
+
+// Returns a box with a blotchy picture of its own on each side, that stands on z = 0 around the z
+// axis. `sides`: m.
+core::TexturedMesh PaintedBox(const Eigen::Vector3d& sides, std::uint64_t seed);
 
 // Returns a lens of `width` x `height` pixels, `longer_fov` (rad) over the longer side, with the
 // barrel distortion and the off-centre principal point of a phone.
