@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,9 +46,9 @@ struct CaptureView {
 // The cameras and masks of an object's photos.
 struct Capture {
   std::vector<CaptureView> views;
-  core::TriangleMesh hull;  // mat frame, m: the object stands on z = 0
-  PaperSize paper = PaperSize::kA4;
-  MatCalibration calibration;  // its views are those of `views`
+  core::TriangleMesh hull;         // mat frame, m: the object stands on z = 0
+  std::optional<PaperSize> paper;  // the mat's; none: without a mat, in a frame of arbitrary scale
+  MatCalibration calibration;      // its views are those of `views`
   core::Findings findings;  // the photos that were left out, and why; what would improve the shape
 };
 

@@ -41,9 +41,9 @@ core::OrderedJson MatrixJson(const Eigen::Isometry3d& pose) {
 
 core::OrderedJson CaptureJson(const capture::CaptureSource& source,
                               const capture::Capture& capture) {
-  core::OrderedJson json = {{"format", 1},
-                            {"mat", capture::CaptureMatOf(capture.paper).name},
-                            {"error_pixels", capture.calibration.error}};
+  core::OrderedJson json = {
+      {"format", 1}, {"mat", core::OrderedJson()}, {"error_pixels", capture.calibration.error}};
+  if (capture.paper) json["mat"] = capture::CaptureMatOf(*capture.paper).name;
   json["lenses"] = core::OrderedJson::array();
   for (const capture::Lens& lens : capture.calibration.lenses) {
     json["lenses"].push_back(LensJson(lens));
@@ -58,6 +58,18 @@ core::OrderedJson CaptureJson(const capture::CaptureSource& source,
          {"error_pixels", view.error}});
   }
   return json;
+}
+
+// Returns where cameras and size come from, and how well they fit.
+std::string CamerasSentence(const capture::Capture& capture) {
+  const std::string error = Decimal(capture.calibration.error, 2) + " pixels (root mean square).";
+  if (capture.paper) {
+    return "The object stands on the " + capture::CaptureMatOf(*capture.paper).name +
+           " mat; its size comes from the mat. The corners of the mat fit with " + error;
+  }
+  return "There is no mat: the cameras come from details that several photos show, which fit "
+         "with " +
+         error + " The size comes from the stated height or from the category.";
 }
 
 // Returns the photo with its background in green.
@@ -113,8 +125,7 @@ void WriteCaptureReport(const capture::CaptureSource& source, const capture::Cap
   const std::string body = core::FillTemplate(data::capture_page_html(),
                                               {{"used", std::to_string(capture.views.size())},
                                                {"count", std::to_string(source.photos.size())},
-                                               {"mat", capture::CaptureMatOf(capture.paper).name},
-                                               {"error", Decimal(capture.calibration.error, 2)},
+                                               {"cameras", CamerasSentence(capture)},
                                                {"advice", core::Markup{advice}},
                                                {"rows", core::Markup{rows}}});
   core::WriteFile(folder / "capture.html", Page("Capture", data::photo_run_css(), body));
