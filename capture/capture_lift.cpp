@@ -79,9 +79,10 @@ asset_lift::LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOpti
   lifted.matte = mattes[0];
   lifted.start = "the visual hull of " + std::to_string(views.size()) + " photos";
   lifted.silhouette_iou = asset_lift::SilhouetteIou(fit.mesh, lifted.camera, lifted.matte);
-  lifted.findings.push_back({"shape", core::Severity::kInfo, "",
-                             "the shape began as " + lifted.start + " on a mat",
-                             lifted.silhouette_iou});
+  lifted.findings.push_back(
+      {"shape", core::Severity::kInfo, "",
+       "the shape began as " + lifted.start + (capture.paper ? " on a mat" : " on a table"),
+       lifted.silhouette_iou});
   progress->Finish();
   return lifted;
 }

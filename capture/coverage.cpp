@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kDegreesInRadian = 180.0 / std::numbers::pi;
 constexpr double kWidestGap = 60.0, kLow = 25.0, kHigh = 50.0;  // degrees
+constexpr double kOneSided = 150.0;                             // of a gap, degrees
 
 core::Finding MorePhotos(const std::string& sentence, double figure, const std::string& remedy) {
   return {"more-photos", core::Severity::kInfo, "", sentence, figure, remedy};
@@ -45,6 +46,7 @@ core::Findings MissingViews(const std::vector<ViewDirection>& directions) {
                                       std::to_string(std::lround(from)) + " and " +
                                       std::to_string(std::lround(from + widest)) + " degrees",
                                   widest, "move all around the object"));
+    if (widest > kOneSided) findings.back().severity = core::Severity::kWarning;
   }
   if (lowest > kLow) {
     findings.push_back(

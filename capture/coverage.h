@@ -16,8 +16,9 @@ struct ViewDirection {
 ViewDirection DirectionTo(const Eigen::Vector3d& object, const Eigen::Vector3d& camera);
 
 // Returns what would improve a capture, one finding each (code "more-photos"): an empty sector of
-// over 60 degrees around the object, no photo from below 25 degrees (the height of flat tops stays
-// uncertain), none from above 50 degrees (hollows stay filled).
+// over 60 degrees around the object (a warning over 150 degrees: the far side is a guess), no photo
+// from below 25 degrees (the height of flat tops stays uncertain), none from above 50 degrees
+// (hollows stay filled).
 core::Findings MissingViews(const std::vector<ViewDirection>& directions);
 
 }  // namespace simwright::capture

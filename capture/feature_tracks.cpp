@@ -17,6 +17,8 @@
 namespace simwright::capture {
 namespace {
 
+constexpr float kLeastProduct = 0.75f;  // of descriptors that match: a distance of 0.7
+
 struct PhotoFeatures {
   std::vector<cv::KeyPoint> points;  // scaled down
   cv::Mat descriptors;               // (N x 128), float, by RootSIFT
@@ -82,7 +84,7 @@ struct NearestTwo {
   }
   // Descriptors have unit length, so squared distances are 2 - 2 product.
   bool IsDistinct(double ratio) const {
-    return best >= 0 && 1.0f - first < ratio * ratio * (1.0f - second);
+    return best >= 0 && first > kLeastProduct && 1.0f - first < ratio * ratio * (1.0f - second);
   }
 };
 
@@ -92,8 +94,12 @@ Eigen::Map<const DescriptorRows> RowsOf(const cv::Mat& descriptors) {
   return {descriptors.ptr<float>(), descriptors.rows, descriptors.cols};
 }
 
-// Returns the pairs of descriptors that are each other's nearest, each by Lowe's ratio.
-std::vector<std::pair<int, int>> MutualNearest(const cv::Mat& a, const cv::Mat& b, double ratio) {
+using Matches = std::vector<std::pair<int, int>>;
+
+// Returns the pairs of descriptors that are each other's nearest among those that `admits(i, j)`,
+// each by Lowe's ratio.
+template <typename Admits>
+Matches MutualNearest(const cv::Mat& a, const cv::Mat& b, double ratio, const Admits& admits) {
   constexpr int kBlock = 256;  // rows whose products are kept at a time
   std::vector<NearestTwo> of_a(static_cast<std::size_t>(a.rows)),
       of_b(static_cast<std::size_t>(b.rows));
@@ -104,12 +110,13 @@ std::vector<std::pair<int, int>> MutualNearest(const cv::Mat& a, const cv::Mat& 
     products.noalias() = rows_a.middleRows(from, count) * rows_b.transpose();
     for (int i = 0; i < count; ++i) {
       for (int j = 0; j < b.rows; ++j) {
+        if (!admits(from + i, j)) continue;
         of_a[static_cast<std::size_t>(from + i)].Offer(j, products(i, j));
         of_b[static_cast<std::size_t>(j)].Offer(from + i, products(i, j));
       }
     }
   }
-  std::vector<std::pair<int, int>> pairs;
+  Matches pairs;
   for (std::size_t i = 0; i < of_a.size(); ++i) {
     const NearestTwo& forth = of_a[i];
     if (!forth.IsDistinct(ratio)) continue;
@@ -120,14 +127,33 @@ std::vector<std::pair<int, int>> MutualNearest(const cv::Mat& a, const cv::Mat& 
   return pairs;
 }
 
-using Matches = std::vector<std::pair<int, int>>;
+// Matches features again among those near each other's epipolar lines: with fewer candidates, more
+// matches are distinct. `fundamental`: b' F a = 0.
+Matches MatchAlongLines(const PhotoFeatures& a, const PhotoFeatures& b, const cv::Mat& fundamental,
+                        const FeatureTrackOptions& options) {
+  std::vector<cv::Vec3f> lines;
+  const cv::Matx33d f(fundamental);
+  for (const cv::KeyPoint& point : a.points) {
+    const cv::Vec3d line = f * cv::Vec3d(point.pt.x, point.pt.y, 1.0);
+    const double norm = std::max(1e-12, std::hypot(line[0], line[1]));
+    lines.emplace_back(static_cast<float>(line[0] / norm), static_cast<float>(line[1] / norm),
+                       static_cast<float>(line[2] / norm));
+  }
+  const auto limit = static_cast<float>(options.epipolar_pixels);
+  return MutualNearest(a.descriptors, b.descriptors, options.ratio, [&](int i, int j) {
+    const cv::Vec3f& line = lines[static_cast<std::size_t>(i)];
+    const cv::Point2f& at = b.points[static_cast<std::size_t>(j)].pt;
+    return std::abs(line[0] * at.x + line[1] * at.y + line[2]) < limit;
+  });
+}
 
 Matches VerifiedMatches(const PhotoFeatures& a, const PhotoFeatures& b,
                         const FeatureTrackOptions& options) {
   if (a.descriptors.rows < options.least_matches || b.descriptors.rows < options.least_matches) {
     return {};
   }
-  const Matches matches = MutualNearest(a.descriptors, b.descriptors, options.ratio);
+  const Matches matches =
+      MutualNearest(a.descriptors, b.descriptors, options.ratio, [](int, int) { return true; });
   std::vector<cv::Point2f> at_a, at_b;
   for (const auto& [i, j] : matches) {
     at_a.push_back(a.points[static_cast<std::size_t>(i)].pt);
@@ -136,15 +162,10 @@ Matches VerifiedMatches(const PhotoFeatures& a, const PhotoFeatures& b,
   if (static_cast<int>(matches.size()) < options.least_matches) return {};
   cv::Mat inliers;
   cv::setRNGSeed(1);  // of this thread: the same photos give the same matches
-  cv::findFundamentalMat(at_a, at_b, cv::USAC_MAGSAC, options.epipolar_pixels, 0.999, 5000,
-                         inliers);
-  if (inliers.empty()) return {};
-  Matches verified;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (inliers.at<std::uint8_t>(static_cast<int>(i)) != 0) verified.push_back(matches[i]);
-  }
-  if (static_cast<int>(verified.size()) < options.least_matches) return {};
-  return verified;
+  const cv::Mat fundamental = cv::findFundamentalMat(at_a, at_b, cv::USAC_MAGSAC,
+                                                     options.epipolar_pixels, 0.999, 5000, inliers);
+  if (fundamental.rows != 3 || cv::countNonZero(inliers) < options.least_matches) return {};
+  return MatchAlongLines(a, b, fundamental, options);
 }
 
 // Joins features that match, directly or through others.

@@ -30,13 +30,14 @@ struct FeatureTrackOptions {
   int max_features = 4000;  // per photo, the strongest
   double ratio = 0.8;       // of the distances to the best and the second-best match (Lowe 2004)
   double epipolar_pixels = 2.0;  // at max_side, of an inlier of the fundamental matrix
-  int least_matches = 24;        // verified ones, of a pair of photos that counts
+  int least_matches = 16;        // verified ones, of a pair of photos that counts
 };
 
 // Finds features (SIFT) in `count` photos and matches each pair: nearest descriptors both ways, by
-// Lowe's ratio, verified by a fundamental matrix (MAGSAC). Matches are joined to tracks; a track
-// that meets a photo twice is dropped. `read` returns photo i; it is called once a photo, from
-// several threads. Throws core::Error for fewer than two photos; core::Cancelled.
+// Lowe's ratio, verified by a fundamental matrix (MAGSAC), and then again along its epipolar lines.
+// Matches are joined to tracks; a track that meets a photo twice is dropped. `read` returns photo
+// i; it is called once a photo, from several threads. Throws core::Error for fewer than two photos;
+// core::Cancelled.
 PhotoTracks FindFeatureTracks(int count, const std::function<core::Image(int)>& read,
                               const FeatureTrackOptions& options, core::Progress* progress);
 

@@ -9,11 +9,13 @@
 #include <ceres/rotation.h>
 
 #include "capture/brown_conrady.h"
+#include "capture/track_triangulation.h"
 
 namespace simwright::capture {
 namespace {
 
-constexpr double kHuberLoss = 1.0;  // pixels
+constexpr double kHuberLoss = 1.0;     // pixels
+constexpr double kWrongMatch = 100.0;  // pixels: it would not come right by an adjustment
 constexpr int kPhotosForLens = 3;
 constexpr double kFocalRange = 3.0;       // factor by which the focal length may leave its start
 constexpr double kExifDeviation = 0.1;    // of EXIF's focal length, relative
@@ -96,6 +98,10 @@ class Adjustment {
         const auto photo = static_cast<std::size_t>(track.photos[k]);
         const Structure::View& view = structure_->views[photo];
         if (!view.registered) continue;
+        if (!(ReprojectionError(*structure_, track.photos[k], track.pixels[k], points_[p]) <
+              kWrongMatch)) {
+          continue;
+        }
         problem_.AddResidualBlock(
             new ceres::AutoDiffCostFunction<PointError, 2, kLensValues, 3, 3, 3>(
                 new PointError{track.pixels[k]}),
@@ -105,7 +111,7 @@ class Adjustment {
     }
   }
 
-  // The first placed photo does not move, and the second one keeps its distance to it.
+  // The first placed photo does not move, and the second one keeps its distance from the origin.
   void KeepGauge() {
     int placed = 0;
     for (std::size_t i = 0; i < structure_->views.size() && placed < 2; ++i) {

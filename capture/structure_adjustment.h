@@ -12,8 +12,8 @@ enum class LensFit {
 
 // Fits poses, points and lenses of a structure's placed photos to their tracks: bundle adjustment
 // with a Huber loss (Ceres). `focal_priors`: per lens, EXIF's focal length, pixels; 0: none. The
-// first placed photo's pose and its distance to the second one are kept: the gauge. A lens that
-// fewer than three placed photos share keeps its values.
+// first placed photo's pose and the second one's distance from the origin are kept: the gauge. A
+// lens that fewer than three placed photos share keeps its values.
 void AdjustStructure(LensFit fit, const std::vector<double>& focal_priors, Structure* structure);
 
 // Returns the point of the plane z = 1 that a lens shows at `pixel`, by fixed-point iteration.

@@ -30,7 +30,7 @@ struct StructureOptions {
   double inlier_pixels = 3.0;      // of a photo of 1600 pixels; larger photos in proportion
   double least_angle = 0.03;       // rad, between the rays to a point
   double first_pair_angle = 0.25;  // rad, the median between the rays of the first pair
-  int least_points = 24;           // seen by a photo that is added
+  int least_points = 16;           // seen by a photo that is added
 };
 
 // Cameras and points in a frame of unknown pose and scale.
