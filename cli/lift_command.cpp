@@ -10,6 +10,7 @@
 #include "core/json.h"
 #include "workflows/lift/lift.h"
 #include "workflows/lift/mat_lift.h"
+#include "workflows/lift/table_lift.h"
 
 namespace simwright::cli {
 namespace {
@@ -19,7 +20,7 @@ struct LiftFlags {
   std::filesystem::path mask;
   std::filesystem::path cameras;
   std::string shape = "auto";
-  bool fast = false, outline = false, each = false;
+  bool fast = false, outline = false, each = false, together = false;
   double ruler = 0.0;  // mm
   GeneratorFlags generator;
   workflows::LiftRequest request;
@@ -32,6 +33,10 @@ class LiftPrinter {
     json_["assets"] = core::OrderedJson::array();
   }
   void Print(const workflows::LiftOutcome& outcome);
+  void Print(const core::Findings& findings) {
+    findings_.insert(findings_.end(), findings.begin(), findings.end());
+    if (!common_.json) PrintFindings(findings, common_);
+  }
   void Finish() {
     if (common_.json) PrintJson(json_, findings_);
   }
@@ -55,19 +60,23 @@ void LiftPrinter::Print(const workflows::LiftOutcome& outcome) {
               (outcome.folder / "preview.png").c_str());
 }
 
-// Photos on a mat take another road than a single photo: an option that only steers the latter is
-// refused instead of ignored.
-void RequireNoneUnused(const LiftFlags& flags) {
+// Several photos of one object take another road than a single photo: an option that only steers
+// the latter is refused instead of ignored. `photos`: how a message names them.
+void RequireNoneUnused(const LiftFlags& flags, const std::string& photos, bool height_is_used) {
   const workflows::LiftRequest& one = flags.request;
-  const std::pair<bool, const char*> unused[] = {
-      {one.height > 0.0, "--height"},        {flags.fast, "--fast"},
-      {flags.outline, "--outline"},          {flags.shape != "auto", "--shape"},
-      {!one.prior.empty(), "--prior"},       {one.elevation_degrees >= 0.0, "--elevation"},
-      {one.fov_degrees > 0.0, "--fov"},      {one.segmenter != nullptr, "--segmenter"},
-      {one.generator.given(), "--generator"}};
+  const std::pair<bool, const char*> unused[] = {{one.height > 0.0 && !height_is_used, "--height"},
+                                                 {flags.ruler > 0.0 && height_is_used, "--ruler"},
+                                                 {flags.fast, "--fast"},
+                                                 {flags.outline, "--outline"},
+                                                 {flags.shape != "auto", "--shape"},
+                                                 {!one.prior.empty(), "--prior"},
+                                                 {one.elevation_degrees >= 0.0, "--elevation"},
+                                                 {one.fov_degrees > 0.0, "--fov"},
+                                                 {one.segmenter != nullptr, "--segmenter"},
+                                                 {one.generator.given(), "--generator"}};
   for (const auto& [given, option] : unused) {
     if (!given) continue;
-    throw core::Error(std::string(option) + " is not used with photos on a mat", "",
+    throw core::Error(std::string(option) + " is not used with " + photos, "",
                       "leave it out, or use --each if each photo shows another object");
   }
 }
@@ -77,8 +86,24 @@ workflows::MatLiftRequest MatRequest(const LiftFlags& flags) {
   workflows::MatLiftRequest request{flags.photos, one.category, 0.1,        one.size,
                                     one.stated,   one.seed,     one.output, one.force};
   if (flags.ruler > 0.0) request.ruler = 0.001 * flags.ruler;
-  RequireNoneUnused(flags);
+  RequireNoneUnused(flags, "photos on a mat", false);
   return request;
+}
+
+workflows::TableLiftRequest TableRequest(const LiftFlags& flags) {
+  RequireNoneUnused(flags, "--together", true);
+  const workflows::LiftRequest& one = flags.request;
+  return {flags.photos, one.category, one.height, one.size,
+          one.stated,   one.seed,     one.output, one.force};
+}
+
+// Returns a finding that suggests --together for photos that are lifted one by one but show one
+// scene.
+core::Findings SuggestTogether(const LiftFlags& flags) {
+  if (flags.each || flags.photos.size() < 4 || !workflows::ShowOneScene(flags.photos)) return {};
+  return {{"photos-overlap", core::Severity::kWarning, "",
+           "the photos show one scene, but each is lifted to an asset of its own", 0.0,
+           "use --together if they show one object, or --each to confirm"}};
 }
 
 int Lift(LiftFlags flags, const CommonOptions& common) {
@@ -119,6 +144,12 @@ int Lift(LiftFlags flags, const CommonOptions& common) {
     printer.Finish();
     return 0;
   }
+  if (flags.together) {
+    printer.Print(workflows::LiftToFolder(TableRequest(flags), &progress));
+    printer.Finish();
+    return 0;
+  }
+  printer.Print(SuggestTogether(flags));
   const std::filesystem::path output = flags.request.output;
   for (const std::filesystem::path& photo : flags.photos) {
     flags.request.photo = photo;
@@ -142,14 +173,15 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright lift front.jpg left.jpg back.jpg --cameras cams.json --category mug -o mug\n"
       "  simwright lift photos/*.jpg --category mug -o mug    (photos on a mat, see simwright "
       "mat)\n"
+      "  simwright lift photos/*.jpg --together --category mug -o mug    (without a mat)\n"
       "  simwright lift mug.jpg --category mug --generator http://localhost:8081/generate -o mug\n"
       "  simwright lift mug.jpg --category mug --generator-command 'my_model {in} {out}' -o mug\n"
       "  simwright lift mug.jpg --category mug --segmenter u2net.onnx -o mug");
   command
       ->add_option(
           "photos", flags->photos,
-          "PNG, JPEG, WebP, TIFF, GIF ... of one object each; with --cameras, or on a mat that "
-          "`simwright mat` wrote, all of one object")
+          "PNG, JPEG, WebP, TIFF, GIF ... of one object each; with --cameras, --together, or "
+          "on a mat that `simwright mat` wrote, all of one object")
       ->required();
   command->add_option("--category", flags->request.category, "The object's category, e.g. mug")
       ->required();
@@ -172,6 +204,11 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       ->check(CLI::Range(50.0, 200.0))
       ->default_str("100");
   command->add_flag("--each", flags->each, "Each photo shows another object, even on a mat");
+  command
+      ->add_flag("--together", flags->together,
+                 "All photos show one object on a table, from all around (docs/capture.md)")
+      ->excludes("--each")
+      ->excludes("--cameras");
   command->add_flag("--fast", flags->fast, "Without radiance field: under a minute");
   command->add_flag("--outline", flags->outline, "Only inflate the silhouette: a few seconds");
   command

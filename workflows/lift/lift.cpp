@@ -91,6 +91,16 @@ core::Finding AppearanceFinding(const validation::Appearance& appearance, const 
 
 }  // namespace
 
+double ScaleToMetres(const Finishing& finishing, const core::TriangleMesh& mesh) {
+  const physics_params::KnowledgeBase& knowledge = physics_params::KnowledgeBase::Shipped();
+  return ScaleOf(
+      finishing.height,
+      physics_params::SampleParameters(
+          physics_params::ChosenRow(finishing.category, finishing.stated.variant, knowledge),
+          knowledge, finishing.seed),
+      mesh, finishing.source);
+}
+
 LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
                        asset_lift::LiftedMesh lifted, core::StagedFolder* staged,
                        core::Progress* progress) {

@@ -26,6 +26,10 @@ struct Finishing {
   std::uint64_t seed = 1;
 };
 
+// Returns the factor from a mesh of arbitrary scale to metres: by `height`, or else to the sampled
+// size of the category. Throws core::Error if the mesh has no extent along a side.
+double ScaleToMetres(const Finishing& finishing, const core::TriangleMesh& mesh);
+
 // Gives the reconstruction its true size, builds the asset and writes its folder, which `staged`
 // then commits. `lift_seconds`: of the reconstruction.
 LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,

@@ -8,24 +8,12 @@
 #include "core/files.h"
 #include "workflows/lift/capture_report.h"
 #include "workflows/lift/lift_finishing.h"
+#include "workflows/lift/photo_source.h"
 
 namespace simwright::workflows {
 namespace {
 
 constexpr double kNominalRuler = 0.1;  // m
-constexpr std::uint64_t kMaxPhotoBytes = 1ull << 30;
-
-capture::CaptureSource SourceOf(const std::vector<std::filesystem::path>& photos) {
-  capture::CaptureSource source;
-  for (const std::filesystem::path& path : photos) {
-    source.photos.push_back({path.filename().string(),
-                             core::ExifFocalLength35mm(core::ReadFile(path, kMaxPhotoBytes))});
-  }
-  source.read = [&photos](int index) {
-    return core::ReadImage(photos[static_cast<size_t>(index)]);
-  };
-  return source;
-}
 
 }  // namespace
 
