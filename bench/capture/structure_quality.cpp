@@ -1,10 +1,12 @@
 // Measures the cameras of photos without a mat: textured objects that no training used stand on a
 // textured table and are rendered from an orbit, with lens distortion, noise and JPEG compression.
 //   bench_structure_quality [--objects N] [--photos N] [--width N] [--only NAME] [--cameras]
+//   [--hull]
 //                           [--pycolmap PYTHON] [--photos-folder DIR] [--dump DIR]
 // Objects: pieces of the list held_out.txt that have a texture, thinned uniformly, at most 13 cm
-// wide and 17 cm high. --cameras stops after the cameras. --pycolmap also runs structure from
-// motion of COLMAP (pip install pycolmap, that Python's path) on the same photos.
+// wide and 17 cm high. --cameras stops after the cameras, --hull after the hull. --pycolmap also
+// runs structure from motion of COLMAP (pip install pycolmap, that Python's path) on the same
+// photos.
 // --photos-folder keeps the rendered photos; --dump writes masks and meshes. Columns: photos that
 // were placed; camera positions after a similarity alignment with the true ones (median and worst,
 // percent of the orbit's radius); the focal length's error, percent; the reprojection error,
@@ -23,7 +25,10 @@
 
 #include "assets/obj_file.h"
 #include "bench/asset_lift/held_out.h"
+#include "capture/capture_lift.h"
+#include "capture/object_masks.h"
 #include "capture/structure_from_motion.h"
+#include "capture/table_capture.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
@@ -41,7 +46,7 @@ constexpr double kLargestSide = 0.13, kLargestHeight = 0.17;  // m
 struct Settings {
   int objects = 6, photos = 24, width = 1600;
   std::string only, python;
-  bool cameras_only = false;
+  bool cameras_only = false, hull_only = false;
   fs::path dump, photos_folder;
 };
 
@@ -164,22 +169,118 @@ void MeasureColmap(const OrbitPhotos& orbit, const Settings& settings) {
   PrintCameras("  pycolmap", structure, orbit, json.at("seconds").get<double>());
 }
 
-void Measure(const TexturedObject& object, const Settings& settings) {
-  const OrbitPhotos orbit = Photograph(object, settings);
+// Returns the Chamfer distance in percent of the truth's diagonal.
+double ChamferPercent(const core::TriangleMesh& truth, const core::TriangleMesh& mesh) {
+  const auto mean = [](const core::TriangleMesh& from, const core::TriangleMesh& to) {
+    double sum = 0.0;
+    const std::vector<double> distances =
+        geometry::DistancesToSurface(geometry::SampleOuterSurface(from, 20000, 1), to);
+    for (const double d : distances) sum += d;
+    return sum / static_cast<double>(distances.size());
+  };
+  return 100.0 * 0.5 * (mean(truth, mesh) + mean(mesh, truth)) /
+         core::Bounds(truth).diagonal().norm();
+}
+
+core::TriangleMesh Aligned(core::TriangleMesh mesh, const capture::CameraAlignment& alignment) {
+  core::Transform(alignment.truth_from_found, &mesh);
+  return mesh;
+}
+
+// Returns the mean and the least IoU of a capture's masks.
+std::pair<double, double> MaskIou(const capture::Capture& capture, const core::TriangleMesh& truth,
+                                  const capture::CameraAlignment& alignment) {
+  core::TriangleMesh moved = truth;
+  core::Transform(alignment.truth_from_found.inverse(), &moved);
+  double mean = 0.0, least = 1.0;
+  for (const capture::CaptureView& view : capture.views) {
+    const core::FloatImage expected = capture::SilhouetteOf(moved, view.camera);
+    double both = 0.0, either = 0.0;
+    for (std::size_t i = 0; i < expected.values.size(); ++i) {
+      const bool a = expected.values[i] >= 0.5f, b = view.opacity.values[i] >= 0.5f;
+      both += a && b;
+      either += a || b;
+    }
+    mean += both / either / static_cast<double>(capture.views.size());
+    least = std::min(least, both / either);
+  }
+  return {mean, least};
+}
+
+void Dump(const fs::path& folder, const TexturedObject& object, const capture::Capture& capture) {
+  fs::create_directories(folder);
+  std::vector<core::Image> pictures;
+  for (const capture::CaptureView& view : capture.views) {
+    core::Image cut = view.photo;
+    for (int y = 0; y < cut.height; ++y) {
+      for (int x = 0; x < cut.width; ++x) {
+        if (*view.opacity.At(x, y) < 0.5f) cut.At(x, y)[1] = 255;
+      }
+    }
+    pictures.push_back(core::Resize(cut, cut.width / 2, cut.height / 2));
+  }
+  core::WritePng(folder / (object.name + "_masks.png"), core::ContactSheet(pictures, 6));
+  core::WriteFile(folder / (object.name + "_hull.obj"), assets::ObjText(capture.hull));
+}
+
+void MeasureShape(const TexturedObject& object, const OrbitPhotos& orbit,
+                  const Settings& settings) {
+  capture::CaptureSource source;
+  for (std::size_t i = 0; i < orbit.photos.size(); ++i) {
+    source.photos.push_back({std::to_string(i), 0.0});
+  }
+  source.read = [&](int i) { return orbit.photos[static_cast<std::size_t>(i)]; };
+  const Stopwatch watch;
+  core::Progress progress;
+  const capture::Capture capture = capture::CaptureOnTable(source, {}, &progress);
+  for (const core::Finding& finding : capture.findings) {
+    std::fprintf(stderr, "%s: %s %s\n", object.name.c_str(), finding.code.c_str(),
+                 finding.place.c_str());
+  }
+  if (!settings.dump.empty()) Dump(settings.dump, object, capture);
+  const capture::CameraAlignment alignment = capture::AlignCameras(capture, orbit.poses);
+  const core::TriangleMesh& truth = object.mesh.mesh;
+  const double hull = ChamferPercent(truth, Aligned(capture.hull, alignment));
+  const auto [mean, least] = MaskIou(capture, truth, alignment);
+  double fitted = hull;
+  if (!settings.hull_only) {
+    const asset_lift::LiftedMesh lifted = capture::LiftCapture(capture, {}, &progress);
+    fitted = ChamferPercent(truth, Aligned(lifted.mesh.mesh, alignment));
+    if (!settings.dump.empty()) {
+      core::WriteFile(settings.dump / (object.name + "_fit.obj"),
+                      assets::ObjText(Aligned(lifted.mesh.mesh, alignment)));
+    }
+  }
+  std::printf("  %-26s %3d/%zu hull %.3f fit %.3f iou %.3f least %.3f %7.1f s\n", "shape",
+              static_cast<int>(capture.views.size()), orbit.photos.size(), hull, fitted, mean,
+              least, watch.Seconds());
+  std::fflush(stdout);
+}
+
+void MeasureCameras(const TexturedObject& object, const OrbitPhotos& orbit) {
   const Stopwatch watch;
   core::Progress progress;
   capture::StructureInput input;
   for (std::size_t i = 0; i < orbit.photos.size(); ++i) {
     input.photos.push_back({orbit.lens.width, orbit.lens.height, 0.0, std::to_string(i)});
   }
-  input.tracks = capture::FindFeatureTracks(
-      static_cast<int>(orbit.photos.size()),
-      [&](int i) { return orbit.photos[static_cast<std::size_t>(i)]; }, {}, &progress);
-  std::fprintf(stderr, "tracks %zu, %.1f s\n", input.tracks.size(), watch.Seconds());
+  input.tracks =
+      capture::FindFeatureTracks(
+          static_cast<int>(orbit.photos.size()),
+          [&](int i) { return orbit.photos[static_cast<std::size_t>(i)]; }, {}, &progress)
+          .tracks;
+  std::fprintf(stderr, "%s: %zu tracks, %.1f s\n", object.name.c_str(), input.tracks.size(),
+               watch.Seconds());
   const capture::Structure structure =
       capture::ReconstructStructure(std::move(input), {}, &progress);
   PrintCameras(object.name, structure, orbit, watch.Seconds());
+}
+
+void Measure(const TexturedObject& object, const Settings& settings) {
+  const OrbitPhotos orbit = Photograph(object, settings);
+  MeasureCameras(object, orbit);
   if (!settings.python.empty()) MeasureColmap(orbit, settings);
+  if (!settings.cameras_only) MeasureShape(object, orbit, settings);
 }
 
 Settings ParseArguments(int count, char** arguments) {
@@ -188,6 +289,10 @@ Settings ParseArguments(int count, char** arguments) {
     const std::string flag = arguments[i];
     if (flag == "--cameras") {
       settings.cameras_only = true;
+      continue;
+    }
+    if (flag == "--hull") {
+      settings.hull_only = true;
       continue;
     }
     if (i + 1 >= count) throw core::Error("needs a value", flag);
