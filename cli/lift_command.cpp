@@ -115,9 +115,9 @@ int Lift(LiftFlags flags, const CommonOptions& common) {
   flags.request.force = common.force;
   ApplyGenerator(flags.generator, &flags.request);
   if (!flags.mask.empty()) flags.request.mask = flags.mask;
-  flags.request.shape = flags.shape == "fitted" ? workflows::LiftShape::kFitted
-                        : flags.shape == "free" ? workflows::LiftShape::kFree
-                                                : workflows::LiftShape::kAuto;
+  flags.request.shape = flags.shape == "fitted"                  ? workflows::LiftShape::kFitted
+                        : flags.shape == "free" || flags.outline ? workflows::LiftShape::kFree
+                                                                 : workflows::LiftShape::kAuto;
   if (flags.fast) flags.request.effort = asset_lift::LiftEffort::kFast;
   if (flags.outline) flags.request.effort = asset_lift::LiftEffort::kOutline;
   if (!flags.cameras.empty()) {

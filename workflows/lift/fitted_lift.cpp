@@ -150,4 +150,13 @@ LiftOutcome FinishArticulated(const ChosenFit& chosen, const Finishing& finishin
   return outcome;
 }
 
+void RejectFit(const validation::CheckFailed& failed, const Finishing& finishing,
+               const fs::path& staging, core::Findings* findings) {
+  for (const auto& entry : fs::directory_iterator(staging)) fs::remove_all(entry.path());
+  std::erase_if(*findings, [](const core::Finding& f) { return f.code == "shape-fitted"; });
+  findings->push_back({"shape-free", core::Severity::kWarning, finishing.source,
+                       std::string("the fitted object is not taken: ") + failed.what(),
+                       static_cast<double>(failed.results().size())});
+}
+
 }  // namespace simwright::workflows

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include "asset_lift/lift.h"
 #include "core/finding.h"
 #include "library_fit/library_fit.h"
+#include "validation/check_report.h"
 #include "workflows/lift/lift_finishing.h"
 
 namespace simwright::workflows {
@@ -38,5 +40,10 @@ void TakeFit(const ChosenFit& chosen, asset_lift::LiftedMesh* lifted);
 LiftOutcome FinishArticulated(const ChosenFit& chosen, const Finishing& finishing,
                               double lift_seconds, const asset_lift::LiftedMesh& lifted,
                               core::StagedFolder* staged);
+
+// Takes back an articulated fit that failed its check: empties the folder `staging` and replaces
+// the finding of the choice by one that says why the free form is taken.
+void RejectFit(const validation::CheckFailed& failed, const Finishing& finishing,
+               const std::filesystem::path& staging, core::Findings* findings);
 
 }  // namespace simwright::workflows

@@ -209,9 +209,15 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
     const std::optional<ChosenFit> chosen =
         ChooseFit(request.shape, finishing, lifted, &lifted.findings, progress);
     if (chosen && chosen->articulated) {
-      return FinishArticulated(*chosen, finishing, LiftSeconds(start), lifted, &staged);
+      try {
+        return FinishArticulated(*chosen, finishing, LiftSeconds(start), lifted, &staged);
+      } catch (const validation::CheckFailed& failed) {
+        if (request.shape == LiftShape::kFitted) throw;
+        RejectFit(failed, finishing, staged.staging(), &lifted.findings);
+      }
+    } else if (chosen) {
+      TakeFit(*chosen, &lifted);
     }
-    if (chosen) TakeFit(*chosen, &lifted);
   }
   return FinishLift(finishing, LiftSeconds(start), std::move(lifted), &staged, progress);
 }
