@@ -98,7 +98,7 @@ void AddShape(const assets::Asset& asset, const AssetPhoto& photo, Judgement* ju
                    "% of the diagonal between the worst flat face and a plane", "flat faces bulge",
                    BetterSurface(photo));
   }
-  // What is seen from all sides may be as crooked as it looks.
+  // An object that photos show from all sides may truly be crooked.
   if (photo.one_of_many) return;
   judgement->Add("symmetry", 100.0 * geometry::FindMirrorSymmetry(mesh).difference / diagonal,
                  kSymmetry, "% of the diagonal between one side and the other, mirrored",
