@@ -112,8 +112,8 @@ TEST_F(CommandLine, BadMeshesAreRefused) {
   const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   ExpectRefused(import(Write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n")), "error");
   ExpectRefused(import(Write("bare.obj", three)), "error");
-  ExpectRefused(import(Write("tiny.obj", "v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nf 1 2 3\n")), "--unit");
-  ExpectRefused(import(Write("vast.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1e9 0\nf 1 2 3\n")), "--unit");
+  ExpectRefused(import(Write("tiny.obj", "v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nf 1 2 3\n")), "--size");
+  ExpectRefused(import(Write("vast.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1e9 0\nf 1 2 3\n")), "--size");
   ExpectRefused(import(Write("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n")), "error");
   ExpectRefused(import(Write("bad.sh3f", "no zip")), "catalogue");
   ExpectRefused(import((folder_ / "none").string()), "no such");
