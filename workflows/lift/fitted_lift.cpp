@@ -22,6 +22,9 @@ namespace fs = std::filesystem;
 // does not name it.
 constexpr double kLeastOutline = 0.8;
 constexpr double kLeastProbability = 0.3;
+// The free form follows the photo's outline closely, whatever its depth: a fit whose outline is
+// worse by more than this is another object of the kind.
+constexpr double kOutlineTolerance = 0.03;
 
 void AddChoice(const char* code, const std::string& sentence, double figure,
                const Finishing& finishing, core::Findings* findings) {
@@ -99,6 +102,7 @@ std::optional<ChosenFit> ChooseFit(LiftShape shape, const Finishing& finishing,
   const std::string both =
       ours + ", the free form " + AgreementText(free_form.iou, free_form.edge_error);
   const bool credible = fitted.iou >= kLeastOutline &&
+                        fitted.iou >= free_form.iou - kOutlineTolerance &&
                         (category != "object" || chosen.fit.probability >= kLeastProbability);
   if (!credible || !unusable.empty() || fitted.Disagreement() >= free_form.Disagreement()) {
     AddChoice("shape-free", unusable.empty() ? both : both + "; " + unusable, fitted.iou, finishing,

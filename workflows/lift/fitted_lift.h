@@ -23,10 +23,10 @@ struct ChosenFit {
 void RequireFittable(const Finishing& finishing);
 
 // Fits the library's kinds of the category to the reconstructed photo, and returns the best fit if
-// it is chosen: always for kFitted; for kAuto if its outline and edges agree with the photo better
-// than those of the free form, `lifted`. Adds a finding that states the choice and its reason,
-// unless the library has no kind of the category. Throws core::Error for kFitted if the request
-// states what an articulated asset cannot take.
+// it is chosen: always for kFitted; for kAuto if its outline agrees with the photo about as well as
+// that of the free form, `lifted`, and outline and edges together better. Adds a finding that
+// states the choice and its reason, unless the library has no kind of the category. Throws
+// core::Error for kFitted if the request states what an articulated asset cannot take.
 std::optional<ChosenFit> ChooseFit(LiftShape shape, const Finishing& finishing,
                                    const asset_lift::LiftedMesh& lifted, core::Findings* findings,
                                    core::Progress* progress);
