@@ -218,7 +218,7 @@ double WithStraightWalls(double focal, const LiftOptions& options, LiftedMesh* l
   const double degrees = 2.0 * std::atan(0.5 * longer / *straight) * 180.0 / M_PI;
   AddFinding("camera",
              "field of view " + std::to_string(std::lround(degrees)) +
-                 " degrees, at which its walls are straight",
+                 " degrees taken instead: there its walls are straight",
              *straight, lifted);
   return *straight;
 }

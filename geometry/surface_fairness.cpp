@@ -176,7 +176,7 @@ void KeepLowest(double share, Measure measure, std::vector<int>* members) {
   for (size_t k = 0; k < members->size(); ++k) (*members)[k] = ranked[k].second;
 }
 
-// Fits a plane to the inner part of the members, without handles and other things that stick out.
+// Fits a plane to the inner part of the members, without handles and other protrusions.
 FlatFace FitFace(const std::vector<OuterHit>& hits, std::vector<int> members,
                  const Eigen::Vector3d& toward) {
   constexpr double kInner = 0.9, kWithoutHandles = 0.8;

@@ -31,7 +31,7 @@ void Photograph(const std::vector<core::Image>& backgrounds, bool frontal, core:
 // Returns crops of the photos in examples/ without their objects.
 std::vector<core::Image> ExampleBackgrounds();
 
-// Where a joint is in the camera's frame, in units of the object's diagonal.
+// A joint's place in the camera's frame, in units of the object's diagonal.
 struct SeenJoint {
   assets::JointType type = assets::JointType::kFixed;
   Eigen::Vector3d axis, pivot;  // unit axis; a point of it, from the middle of the object's bounds

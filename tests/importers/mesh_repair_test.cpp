@@ -1,4 +1,4 @@
-// What import does about specks, voids, holes, fins and absurd sizes. The truth is a sound mesh's.
+// The repair of specks, voids, holes, fins and absurd sizes. The truth is a sound mesh's.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -81,7 +81,7 @@ TEST(LooseFaces, SpecksAndVoidsAreRemovedAndLargePartsKept) {
   EXPECT_NEAR(VolumeOf(mesh), 0.2 * 0.1 * 0.1 + 0.04 * 0.04 * 0.04, 1e-9);
 }
 
-// What is seen through glass stays, and so do labels, which have a material of their own.
+// Contents behind glass stay, and so do labels, which have a material of their own.
 TEST(LooseFaces, ContentsOfGlassAndLabelsStay) {
   core::TexturedMesh mesh = Box({0.2, 0.1, 0.1});
   core::Append(assets::BoxMesh({0.1, 0.05, 0.05}), &mesh.mesh);

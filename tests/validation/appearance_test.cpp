@@ -1,5 +1,5 @@
-// The judgement of looks: each measure is 1 or 0 for a thing that is its own photo, and moves by
-// known amounts when the thing is damaged.
+// The judgement of looks: each measure is 1 or 0 for an object that is its own photo, and
+// moves by known amounts when the object is damaged.
 #include "validation/appearance.h"
 
 #include <gtest/gtest.h>
@@ -88,7 +88,7 @@ AssetPhoto PhotoOf(const core::TexturedMesh& mesh) {
 
 assets::Asset BoxAsset(const core::TexturedMesh& visual) {
   assets::Asset asset;
-  asset.name = "thing";
+  asset.name = "block";
   for (const auto& category : physics_params::KnowledgeBase::Shipped().categories()) {
     if (category.shape == physics_params::Shape::kBox) asset.parameters.category = category.name;
   }
@@ -103,7 +103,7 @@ double FigureOf(const Appearance& appearance, const std::string& code) {
   return NAN;
 }
 
-TEST(Appearance, OfAThingThatIsItsPhotoIsA) {
+TEST(Appearance, OfAnObjectThatIsItsPhotoIsA) {
   const core::TexturedMesh block = Block(0.0, Checkers(12));
   const Appearance appearance = JudgeAppearance(BoxAsset(block), PhotoOf(block));
   EXPECT_NEAR(FigureOf(appearance, "outline"), 1.0, 1e-9);
@@ -140,7 +140,7 @@ TEST(Appearance, NamesWhatIsWrongAndWhatWouldHelp) {
   EXPECT_NE(plain.reasons.find("blurred"), std::string::npos) << plain.reasons;
 }
 
-TEST(Appearance, LeavesOutTheTextureOfAPlainThing) {
+TEST(Appearance, LeavesOutTheTextureOfAPlainObject) {
   const core::TexturedMesh block = Block(0.0, core::Image(8, 8, 3, 130));
   const Appearance appearance = JudgeAppearance(BoxAsset(block), PhotoOf(block));
   EXPECT_TRUE(std::isnan(FigureOf(appearance, "texture")));

@@ -143,9 +143,9 @@ LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
     const core::Camera camera = CameraInLink(lifted.camera, scale, built.asset);
     assets::WriteCameraFile({{validation::kCutOutFile, camera}},
                             folder / validation::kPhotoCameraFile);
-    built.asset.findings.push_back(
-        AppearanceFinding(validation::JudgeAppearance(built.asset, {cut, camera, finishing.metric}),
-                          built.asset.name));
+    built.asset.findings.push_back(AppearanceFinding(
+        validation::JudgeAppearance(built.asset, *validation::ReadAssetPhoto(folder)),
+        built.asset.name));
   }
   assets::WriteAsset(built.asset, folder);
   core::WritePng(folder / "preview.png", asset_build::AssetPreview(built.asset));

@@ -17,13 +17,13 @@ struct Specimen {
   Eigen::Vector3d sides{0, 0, 0};  // m, true, ascending
   double true_height = 0.0;        // m, along z
 
-  // What the user of the file knows and states. 0 or 1: nothing.
+  // Facts that the user of the file knows and states. 0 or 1: nothing.
   char up = 0;
   std::string unit;
   double height = 0.0;
   bool scale_known = true;  // false: the sides are compared up to their scale
 
-  // How the file is written.
+  // The form of the file.
   std::string format = "obj";  // obj, ply, stl or glb
   bool vertex_colors = false;  // ply or glb
   bool pbr_textures = false;   // glb

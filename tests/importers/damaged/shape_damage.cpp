@@ -237,7 +237,7 @@ void MakeStaircase(Specimen* specimen, core::Rng*) {
   std::sort(specimen->sides.data(), specimen->sides.data() + 3);
 }
 
-// As fine as what marching cubes make: 120k to 300k faces.
+// A tessellation as fine as that of marching cubes: 120k to 300k faces.
 void Tessellate(Specimen* specimen, core::Rng*) {
   double edge = 0.02 * DiagonalOf(specimen->mesh);
   while (specimen->mesh.triangles.size() < 120000) {
