@@ -27,6 +27,15 @@ macro(simwright_require_torch)
     add_library(simwright_torch INTERFACE IMPORTED)
     target_link_libraries(simwright_torch INTERFACE ${TORCH_LIBRARIES})
     target_include_directories(simwright_torch SYSTEM INTERFACE ${TORCH_INCLUDE_DIRS})
+    # Debian's Ceres depends on ATLAS. The BLAS that a program names first serves all its libraries,
+    # and libtorch's convolutions are several times slower on ATLAS: OpenBLAS comes first.
+    find_library(SIMWRIGHT_OPENBLAS NAMES libopenblas.so.0 PATH_SUFFIXES openblas-pthread)
+    if(SIMWRIGHT_OPENBLAS)
+      target_link_options(simwright_torch INTERFACE
+        "LINKER:--no-as-needed,${SIMWRIGHT_OPENBLAS},--as-needed")
+    else()
+      message(WARNING "OpenBLAS is missing (libopenblas0-pthread): networks will be slow")
+    endif()
   endif()
 endmacro()
 

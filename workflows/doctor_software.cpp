@@ -8,6 +8,7 @@
 #include "assets/urdf_reader.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "nn/blas_library.h"
 #include "physics_params/wordnet.h"
 #include "sim/drop_test.h"
 #include "sim/mujoco.h"
@@ -97,6 +98,17 @@ core::Finding ExamineWordNet() {
              "install wordnet-base");
 }
 
+core::Finding ExamineBlas() {
+  const std::string library = nn::BlasLibrary();
+  if (library.find("atlas") == std::string::npos && library.find("/blas/") == std::string::npos) {
+    return Good("blas", "matrix products by " + (library.empty() ? "libtorch's own" : library),
+                1.0);
+  }
+  return Bad("blas", core::Severity::kWarning,
+             "matrix products by " + library + ": networks are several times slower than they need",
+             "install libopenblas0-pthread and configure the build again");
+}
+
 int CountWeights(const fs::path& folder) {
   int count = 0;
   if (!fs::is_directory(folder)) return 0;
@@ -141,7 +153,8 @@ core::Finding ExamineWeights() {
 }  // namespace
 
 core::Findings ExamineSoftware() {
-  return {ExamineBullet(), ExamineMujoco(), ExamineUrdfdom(), ExamineWordNet(), ExamineWeights()};
+  return {ExamineBullet(),  ExamineMujoco(), ExamineUrdfdom(),
+          ExamineWordNet(), ExamineBlas(),   ExamineWeights()};
 }
 
 }  // namespace simwright::workflows

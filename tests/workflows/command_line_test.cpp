@@ -243,6 +243,12 @@ TEST_F(CommandLine, WrongUsageIsExitTwo) {
   }
 }
 
+// Ceres brings ATLAS along, which would serve libtorch's products too.
+TEST_F(CommandLine, TheProgramMultipliesByOpenBlas) {
+  const Outcome outcome = RunProgram("doctor");
+  EXPECT_NE(outcome.text.find("openblas"), std::string::npos) << outcome.text;
+}
+
 TEST_F(CommandLine, OneOpenFaceBecomesASheetWithAWall) {
   const std::string mesh = Write("sheet.obj", "v 0 0 0\nv 0.2 0 0\nv 0 0.2 0\nf 1 2 3\n");
   const Outcome outcome =
