@@ -20,6 +20,7 @@ struct PriorFlags {
   bool resume = false;
   int batch = 0, pool = 0;  // 0: the defaults
   double rate = 0.0;        // 0: the defaults
+  double library_share = 0.25;
   std::string from;
   std::string only;
 };
@@ -67,6 +68,7 @@ int TrainPriors(PriorFlags flags, const CommonOptions& common) {
   for (auto* options : {&flags.request.shape_options, &flags.request.view_options}) {
     options->seed = common.seed;
     options->trainer.resume = flags.resume;
+    options->sampler_share = flags.library_share;
     if (flags.batch > 0) options->batch = flags.batch;
     if (flags.pool > 0) options->pool = flags.pool;
     if (flags.rate > 0.0) options->trainer.learning_rate = flags.rate;
@@ -118,7 +120,19 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option("catalogues", flags->request.catalogues,
                    "Furniture catalogues (.sh3f) to train on")
       ->default_str("Debian's CC0 catalogue");
-  command->add_flag("--parametric-only", flags->parametric_only, "Train only on parametric shapes");
+  command->add_flag("--parametric-only", flags->parametric_only,
+                    "Train without a catalogue, on parametric shapes and the library's kinds");
+  command
+      ->add_option("--library-share", flags->library_share,
+                   "Share of instances of the library's kinds among the objects of shape and view "
+                   "prior")
+      ->check(CLI::Range(0.0, 0.6))
+      ->capture_default_str();
+  command
+      ->add_option("--shape-channels", flags->request.shape_options.shape_channels,
+                   "Channels of the shape prior's levels, separated by commas: multiples of 8")
+      ->delimiter(',')
+      ->default_str("48,96,192,256");
   command->add_option("-o,--output", flags->request.output, "The folder for the weights")
       ->required();
   command->add_option("--only", flags->only, "Train only one of the three")

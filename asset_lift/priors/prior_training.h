@@ -9,9 +9,13 @@
 
 #include "core/mesh.h"
 #include "core/progress.h"
+#include "core/random.h"
 #include "nn/trainer_options.h"
 
 namespace simwright::asset_lift {
+
+// Returns a random mesh (any units, z up); called from several threads.
+using TrainingMeshSampler = std::function<core::TexturedMesh(core::Rng* rng)>;
 
 struct PriorTrainingOptions {
   nn::TrainerOptions trainer;
@@ -20,9 +24,14 @@ struct PriorTrainingOptions {
   // replaces the `exchange` oldest.
   int pool = 160;
   int exchange = 1;
-  // The share of parametric shapes among the objects, in [0, 1]; the others are randomly stretched
-  // meshes of the catalogue.
+  // The share of parametric shapes among the objects, in [0, 1], and that of meshes of `sampler`
+  // (none without one); the others are randomly stretched meshes of the catalogue.
   double parametric_share = 0.4;
+  TrainingMeshSampler sampler;
+  double sampler_share = 0.25;
+  // The channels of the shape network's levels, each at half the resolution of the one before:
+  // multiples of 8. The weights' file keeps them.
+  std::vector<int> shape_channels = {48, 96, 192, 256};
   std::uint64_t seed = 1;
   // The file of initial weights of the same network; empty: random initialization.
   std::filesystem::path start;

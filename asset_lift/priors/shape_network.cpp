@@ -1,8 +1,40 @@
 #include "asset_lift/priors/shape_network.h"
 
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
 #include "asset_lift/priors/shape_example.h"
+#include "core/error.h"
 
 namespace simwright::asset_lift {
+
+nn::CheckpointMetadata ShapeNetworkOptions::Metadata() const {
+  std::string list;
+  for (const int count : channels) list += (list.empty() ? "" : ",") + std::to_string(count);
+  return {{"channels", list}};
+}
+
+ShapeNetworkOptions ShapeNetworkOptions::Of(const std::filesystem::path& weights) {
+  const nn::CheckpointMetadata metadata = nn::ReadCheckpointMetadata(weights, "shape");
+  ShapeNetworkOptions options;
+  const auto found = metadata.find("channels");
+  if (found == metadata.end()) return options;
+  options.channels.clear();
+  std::istringstream list(found->second);
+  for (std::string count; std::getline(list, count, ',');) {
+    const int channels = std::atoi(count.c_str());
+    if (channels < 8 || channels > 4096 || channels % 8 != 0) {
+      throw core::Error("the weights name channels that no network can have: " + found->second,
+                        weights.string());
+    }
+    options.channels.push_back(channels);
+  }
+  if (options.channels.empty() || options.channels.size() > 6) {
+    throw core::Error("the weights name no channels of one to six levels", weights.string());
+  }
+  return options;
+}
 
 ShapeNetworkImpl::ShapeNetworkImpl(const ShapeNetworkOptions& options) {
   nn::UNetOptions body;

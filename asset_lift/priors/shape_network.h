@@ -1,5 +1,9 @@
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
+#include "nn/checkpoint.h"
 #include "nn/torch.h"
 #include "nn/unet.h"
 
@@ -15,6 +19,12 @@ struct ShapeNetworkOutput {
 struct ShapeNetworkOptions {
   std::vector<int> channels = {48, 96, 192, 256};
   int blocks = 1;
+
+  // Returns the options as metadata of a weights file.
+  nn::CheckpointMetadata Metadata() const;
+  // Returns the options of a weights file; the defaults where it names none. Throws core::Error for
+  // a file that is missing, damaged or of another kind, or for sizes that no network can have.
+  static ShapeNetworkOptions Of(const std::filesystem::path& weights);
 };
 
 // Maps one crop to the block of space behind it: a U-Net whose output channels are the depth cells

@@ -18,12 +18,14 @@ constexpr size_t kPriorPixels = static_cast<size_t>(kCropSide) * kCropSide;
 }  // namespace
 
 struct ShapePrior::Network {
+  explicit Network(const ShapeNetworkOptions& options) : module(options) {}
+
   mutable ShapeNetwork module;
   torch::Device device = nn::BestDevice();
 };
 
 ShapePrior::ShapePrior(const std::filesystem::path& weights)
-    : network_(std::make_unique<Network>()) {
+    : network_(std::make_unique<Network>(ShapeNetworkOptions::Of(weights))) {
   nn::LoadCheckpoint(weights, "shape", network_->module.get());
   network_->module->to(network_->device);
   network_->module->eval();

@@ -105,11 +105,14 @@ PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& mes
   nn::PrepareForWork();
   torch::manual_seed(options.seed);
   const torch::Device device = nn::BestDevice();
-  ShapeNetwork network;
+  ShapeNetworkOptions sizes;
+  sizes.channels = options.shape_channels;
+  ShapeNetwork network(sizes);
   network->to(device);
-  ShapeNetwork kept;
-  const PriorTraining training{
-      "shape", {"volume IoU", "elevation error, deg"}, 0, network.get(), kept.get()};
+  ShapeNetwork kept(sizes);
+  const PriorTraining training{"shape",    {"volume IoU", "elevation error, deg"},
+                               0,          network.get(),
+                               kept.get(), sizes.Metadata()};
   return TrainPrior(training, meshes, options, weights, progress, report,
                     [&](const TrainingPool& pool, int step) -> PriorBatch {
                       const Batch sampled = SampleBatch(pool, options.batch, options.seed,

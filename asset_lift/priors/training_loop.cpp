@@ -1,5 +1,6 @@
 #include "asset_lift/priors/training_loop.h"
 
+#include <algorithm>
 #include <chrono>
 #include <future>
 
@@ -61,6 +62,14 @@ bool PriorTrainingOptions::IsValid(std::string* error) const {
   if (!(parametric_share >= 0.0 && parametric_share <= 1.0)) {
     return fail("parametric_share must be in [0, 1]");
   }
+  if (sampler && !(sampler_share >= 0.0 && parametric_share + sampler_share <= 1.0)) {
+    return fail("sampler_share and parametric_share must be at least 0 and sum to at most 1");
+  }
+  if (shape_channels.empty() ||
+      std::any_of(shape_channels.begin(), shape_channels.end(),
+                  [](int channels) { return channels < 8 || channels % 8 != 0; })) {
+    return fail("shape_channels must be positive multiples of 8, one per level");
+  }
   return true;
 }
 
@@ -78,7 +87,7 @@ PriorTrainingReport TrainPrior(const PriorTraining& training,
   progress->Stage("preparing shapes");
   // A resumed training uses new objects.
   TrainingPool pool(
-      &meshes, options.pool, options.parametric_share,
+      {&meshes, options.parametric_share, options.sampler, options.sampler_share}, options.pool,
       options.seed + training.seed_offset + 1000003ull * static_cast<std::uint64_t>(first));
   progress->Stage(training.kind + " prior", steps - first);
   TrainingMeans means(training.metrics, steps, listener);
@@ -97,13 +106,13 @@ PriorTrainingReport TrainPrior(const PriorTraining& training,
     if (trainer.SaveDue(i)) {
       trainer.SaveState(i + 1);
       trainer.CopyAverageTo(training.kept);
-      nn::SaveCheckpoint(*training.kept,
-                         {{"kind", training.kind},
-                          {"step", std::to_string(i + 1)},
-                          {"batch", std::to_string(options.batch)},
-                          {"seed", std::to_string(options.seed)},
-                          {"meshes", std::to_string(meshes.size())}},
-                         weights);
+      nn::CheckpointMetadata metadata{{"kind", training.kind},
+                                      {"step", std::to_string(i + 1)},
+                                      {"batch", std::to_string(options.batch)},
+                                      {"seed", std::to_string(options.seed)},
+                                      {"meshes", std::to_string(meshes.size())}};
+      metadata.insert(training.sizes.begin(), training.sizes.end());
+      nn::SaveCheckpoint(*training.kept, metadata, weights);
     }
     progress->Advance();
   }

@@ -7,6 +7,7 @@
 
 #include "asset_lift/priors/prior_training.h"
 #include "asset_lift/priors/training_pool.h"
+#include "nn/checkpoint.h"
 #include "nn/torch.h"
 
 namespace simwright::asset_lift {
@@ -18,6 +19,7 @@ struct PriorTraining {
   std::uint64_t seed_offset = 0;         // of the objects, so that no two trainings share them
   torch::nn::Module* network = nullptr;  // trained
   torch::nn::Module* kept = nullptr;     // a copy that takes the averaged weights
+  nn::CheckpointMetadata sizes;          // from which a reader of the weights builds the network
 };
 
 struct PriorLoss {

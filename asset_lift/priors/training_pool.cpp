@@ -1,6 +1,7 @@
 #include "asset_lift/priors/training_pool.h"
 
 #include <cmath>
+#include <utility>
 
 #include "asset_lift/priors/training_shapes.h"
 #include "core/error.h"
@@ -8,9 +9,8 @@
 
 namespace simwright::asset_lift {
 
-TrainingPool::TrainingPool(const std::vector<core::TexturedMesh>* meshes, int size,
-                           double parametric_share, std::uint64_t seed)
-    : meshes_(meshes), parametric_share_(parametric_share), seed_(seed) {
+TrainingPool::TrainingPool(TrainingSources sources, int size, std::uint64_t seed)
+    : sources_(std::move(sources)), seed_(seed) {
   objects_.resize(static_cast<size_t>(size));
   core::ParallelFor(
       size, [&](int i) { objects_[static_cast<size_t>(i)] = Make(static_cast<std::uint64_t>(i)); });
@@ -31,11 +31,17 @@ std::unique_ptr<TrainingObject> TrainingPool::Make(std::uint64_t number) const {
     core::Rng rng = core::StreamRng(seed_, number * 16 + static_cast<std::uint64_t>(attempt));
     Eigen::Vector3d stretch;
     for (int axis = 0; axis < 3; ++axis) stretch[axis] = std::exp(0.18 * core::Normal(rng));
-    const bool parametric = meshes_->empty() || core::Uniform(rng) < parametric_share_;
+    const double source = core::Uniform(rng);
+    const double sampled = sources_.sampler ? sources_.sampler_share : 0.0;
     try {
-      if (parametric) return std::make_unique<TrainingObject>(MakeTrainingShape(&rng), stretch);
-      const auto at = core::UniformIndex(rng, static_cast<std::int64_t>(meshes_->size()));
-      return std::make_unique<TrainingObject>((*meshes_)[static_cast<size_t>(at)], stretch);
+      if (source < sampled) {
+        return std::make_unique<TrainingObject>(sources_.sampler(&rng), stretch);
+      }
+      if (sources_.meshes->empty() || source < sampled + sources_.parametric_share) {
+        return std::make_unique<TrainingObject>(MakeTrainingShape(&rng), stretch);
+      }
+      const auto at = core::UniformIndex(rng, static_cast<std::int64_t>(sources_.meshes->size()));
+      return std::make_unique<TrainingObject>((*sources_.meshes)[static_cast<size_t>(at)], stretch);
     } catch (const core::Error&) {
       if (attempt == 9) throw;
     }

@@ -4,18 +4,26 @@
 #include <memory>
 #include <vector>
 
+#include "asset_lift/priors/prior_training.h"
 #include "asset_lift/priors/shape_example.h"
 #include "core/mesh.h"
 
 namespace simwright::asset_lift {
 
-// The objects prepared for rendering: stretched catalogue meshes and parametric shapes. They are
-// exchanged gradually, since preparing one costs as much as many renderings of it.
+// The sources of training objects and their shares, as in PriorTrainingOptions.
+struct TrainingSources {
+  const std::vector<core::TexturedMesh>* meshes = nullptr;  // must outlive the pool
+  double parametric_share = 0.4;
+  TrainingMeshSampler sampler;  // may be empty
+  double sampler_share = 0.0;
+};
+
+// The objects prepared for rendering, each from a random source and stretched. They are exchanged
+// gradually, since preparing one costs as much as many renderings of it.
 class TrainingPool {
  public:
-  // `meshes` must outlive the pool. Deterministic for a seed, regardless of the number of threads.
-  TrainingPool(const std::vector<core::TexturedMesh>* meshes, int size, double parametric_share,
-               std::uint64_t seed);
+  // Deterministic for a seed, regardless of the number of threads.
+  TrainingPool(TrainingSources sources, int size, std::uint64_t seed);
 
   // Replaces the `count` oldest objects.
   void Exchange(int count);
@@ -25,8 +33,7 @@ class TrainingPool {
  private:
   std::unique_ptr<TrainingObject> Make(std::uint64_t number) const;
 
-  const std::vector<core::TexturedMesh>* meshes_;
-  double parametric_share_;
+  TrainingSources sources_;
   std::uint64_t seed_;
   std::uint64_t made_ = 0;
   std::vector<std::unique_ptr<TrainingObject>> objects_;

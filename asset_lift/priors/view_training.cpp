@@ -129,7 +129,7 @@ PriorTrainingReport TrainViewNetwork(const std::vector<core::TexturedMesh>& mesh
   ViewNetwork kept;
   const nn::DiffusionSchedule schedule = nn::DiffusionSchedule::Cosine(kViewDiffusionSteps);
   const PriorTraining training{
-      "view", {"picture error", "picture error of the drawing"}, 77, network.get(), kept.get()};
+      "view", {"picture error", "picture error of the drawing"}, 77, network.get(), kept.get(), {}};
   return TrainPrior(training, meshes, options, weights, progress, report,
                     [&](const TrainingPool& pool, int step) -> PriorBatch {
                       const ViewBatch sampled =

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "importers/catalogue_meshes.h"
+#include "library_fit/fit_kinds.h"
 
 namespace simwright::workflows {
 namespace {
@@ -30,6 +31,22 @@ void RequireFiles(const PriorTrainingRequest& request) {
     throw core::Error("the view prior needs a shape prior", ShapeWeights(request.output),
                       "train it too, or copy one there");
   }
+}
+
+// Returns a random instance of a random kind of the library. The seeds from 1e9 on are held out, as
+// those of the library's prior are.
+core::TexturedMesh SampleLibraryMesh(core::Rng* rng) {
+  constexpr std::int64_t kTrainingSeeds = 999999999;
+  const auto kinds = static_cast<std::int64_t>(library_fit::FitKinds().size());
+  const int kind = static_cast<int>(core::UniformIndex(*rng, kinds));
+  const auto seed = static_cast<std::uint64_t>(1 + core::UniformIndex(*rng, kTrainingSeeds));
+  return library_fit::InstanceMesh(library_fit::SampleInstance(kind, seed));
+}
+
+// Returns the options with the library as the sampler of meshes.
+asset_lift::PriorTrainingOptions WithLibrary(asset_lift::PriorTrainingOptions options) {
+  if (options.sampler_share > 0.0) options.sampler = SampleLibraryMesh;
+  return options;
 }
 
 }  // namespace
@@ -77,13 +94,14 @@ std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core:
   std::vector<TrainedPrior> trained;
   if (request.shape) {
     trained.push_back({"shape", shape,
-                       asset_lift::TrainShapeNetwork(meshes, request.shape_options, shape, progress,
-                                                     named("shape", shape))});
+                       asset_lift::TrainShapeNetwork(meshes, WithLibrary(request.shape_options),
+                                                     shape, progress, named("shape", shape))});
   }
   if (request.view) {
-    trained.push_back({"view", view,
-                       asset_lift::TrainViewNetwork(meshes, shape, request.view_options, view,
-                                                    progress, named("view", view))});
+    trained.push_back(
+        {"view", view,
+         asset_lift::TrainViewNetwork(meshes, shape, WithLibrary(request.view_options), view,
+                                      progress, named("view", view))});
   }
   if (request.library) {
     const std::filesystem::path library = LibraryWeights(request.output);

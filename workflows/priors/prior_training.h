@@ -18,6 +18,7 @@ struct PriorTrainingRequest {
   bool shape = true;             // trains the shape prior
   bool view = true;              // trains the view prior, which uses the shape prior in the folder
   bool library = true;           // trains the prior of the library's kinds, on the library alone
+  // Their samplers are set by TrainPriors to instances of the library, unless the shares are 0.
   asset_lift::PriorTrainingOptions shape_options, view_options;
   library_fit::LibraryTrainingOptions library_options;
 
