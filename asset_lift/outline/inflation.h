@@ -27,7 +27,7 @@ struct InflationOptions {
                                     // a prior
   double plain_coverage = 0.955;    // ... and without one
   double wall_ratio = 0.05;         // of the width: a vessel's wall thickness
-  double base_cut_ratio = 0.025;    // of the height: cut off to make a flat base; half as deep as a
+  double base_cut_ratio = 0.032;    // of the height: cut off to make a flat base; shallower than a
                                     // fruit's dimple
   double base_tilt_angle =
       0.12;                 // rad of tilt that the base must support; it grows 2.25 times at most
