@@ -69,6 +69,13 @@ bool BallsAgree() {
   bool holds = Holds("balls of radius 1 and 1.05: Chamfer 0.05", near.chamfer, 0.048, 0.052);
   holds &= Holds("balls of radius 1 and 1.05: F@0.1 1", near.f_score, 0.999, 1.0);
   holds &= Holds("balls of radius 1 and 1.05: IoU 1/1.05^3 = 0.864", near.volume_iou, 0.845, 0.883);
+  holds &= Holds("balls of radius 1 and 1.2: normals 1", far.normal_consistency, 0.998, 1.0);
+  // From a point of the ball, the post's nearest face is at 45 degrees at most.
+  const ComparableShape post(SquarePost(), 1);
+  holds &=
+      Holds("ball and square post: normals between cos(45 degrees) and 1",
+            CompareShapes(ball, post, Eigen::Affine3d::Identity()).normal_consistency, 0.707, 0.99);
+  holds &= Holds("balls: equally rough", near.roughness, 0.8, 1.2);
   holds &= Holds("balls of radius 1 and 1.2: Chamfer 0.2", far.chamfer, 0.197, 0.203);
   return holds & Holds("balls of radius 1 and 1.2: F@0.1 0", far.f_score, 0.0, 0.001);
 }

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "geometry/surface_fairness.h"
 #include "render/forward.h"
 #include "render/scene.h"
 
@@ -19,20 +20,36 @@ constexpr double kViewFov = 35.0 * kDegree;
 // A unit box's farthest corner is sqrt(3) from its middle; most shapes extend half as far.
 constexpr double kViewDistance = 5.0;
 
-// Returns the distances of points to a surface in its frame, times `scale`.
-std::vector<double> Distances(const std::vector<Eigen::Vector3d>& points,
-                              const Eigen::Affine3d& surface_from_points,
-                              const geometry::TriangleTree& surface, double scale) {
-  std::vector<double> distances(points.size());
+// The smallest mean deviation of a ground truth's normals that ours are compared with: 1 degree.
+// A faceless sphere would make any reconstruction infinitely rough.
+constexpr double kSmoothest = kDegree;
+
+// The points of one shape against the surface of another.
+struct SurfaceComparison {
+  std::vector<double> distances;  // in the ground truth's frame
+  std::vector<double> cosines;    // |cosine| between both normals
+};
+
+SurfaceComparison CompareSurfaces(const ComparableShape& from,
+                                  const Eigen::Affine3d& surface_from_points,
+                                  const ComparableShape& to, double scale) {
+  const std::vector<Eigen::Vector3d>& points = from.points();
+  SurfaceComparison compared{std::vector<double>(points.size()),
+                             std::vector<double>(points.size())};
+  const Eigen::Matrix3d turn = surface_from_points.rotation();
   constexpr size_t kBlock = 256;
   const int blocks = static_cast<int>((points.size() + kBlock - 1) / kBlock);
   core::ParallelFor(blocks, [&](int block) {
     const size_t first = static_cast<size_t>(block) * kBlock;
     for (size_t i = first; i < std::min(points.size(), first + kBlock); ++i) {
-      distances[i] = scale * surface.Closest(surface_from_points * points[i]).distance;
+      const geometry::SurfacePoint own = from.surface().Closest(points[i]);
+      const geometry::SurfacePoint near = to.surface().Closest(surface_from_points * points[i]);
+      compared.distances[i] = scale * near.distance;
+      compared.cosines[i] = std::abs(
+          (turn * from.surface().Normal(own.triangle)).dot(to.surface().Normal(near.triangle)));
     }
   });
-  return distances;
+  return compared;
 }
 
 double Mean(const std::vector<double>& values) {
@@ -92,13 +109,16 @@ core::Image OverWhite(const core::Image& rgba) {
 ShapeScores CompareShapes(const ComparableShape& truth, const ComparableShape& other,
                           const Eigen::Affine3d& truth_from_other) {
   const double scale = std::cbrt(truth_from_other.linear().determinant());
-  const std::vector<double> from_other =
-      Distances(other.points(), truth_from_other, truth.surface(), 1.0);
-  const std::vector<double> from_truth =
-      Distances(truth.points(), truth_from_other.inverse(), other.surface(), scale);
+  const SurfaceComparison from_other = CompareSurfaces(other, truth_from_other, truth, 1.0);
+  const SurfaceComparison from_truth =
+      CompareSurfaces(truth, truth_from_other.inverse(), other, scale);
   ShapeScores scores;
-  scores.chamfer = 0.5 * (Mean(from_other) + Mean(from_truth));
-  const double precision = ShareNear(from_other), recall = ShareNear(from_truth);
+  scores.chamfer = 0.5 * (Mean(from_other.distances) + Mean(from_truth.distances));
+  scores.normal_consistency = 0.5 * (Mean(from_other.cosines) + Mean(from_truth.cosines));
+  scores.roughness = geometry::MeasureFairness(other.mesh()).mean_deviation /
+                     std::max(kSmoothest, geometry::MeasureFairness(truth.mesh()).mean_deviation);
+  const double precision = ShareNear(from_other.distances),
+               recall = ShareNear(from_truth.distances);
   scores.f_score = precision + recall > 0.0 ? 2.0 * precision * recall / (precision + recall) : 0.0;
   scores.volume_iou = VolumeIou(truth, other, truth_from_other);
   return scores;

@@ -16,6 +16,12 @@ struct ShapeScores {
   double chamfer = 0.0;  // mean of both mean distances, from points of one to the other's surface
   double f_score = 0.0;  // at 0.1: harmonic mean of the shares of points nearer than that
   double volume_iou = 0.0;  // by geometry::VoxelSolid, 96 cells per side
+  // The mean |cosine| between the normals of a point of one and of the nearest point of the other,
+  // mean of both directions.
+  double normal_consistency = 0.0;
+  // The mean deviation of the normals (geometry/surface_fairness.h), divided by the ground truth's;
+  // above 1: rougher.
+  double roughness = 0.0;
 };
 
 // Compares two shapes. `truth_from_other` is between their normalized frames.

@@ -17,8 +17,8 @@ namespace {
 
 constexpr const char* kNames =
     "object\tvariant\trevolved\tturning_defect\televation\televation_used\tchamfer\tf_score_0.1\t"
-    "volume_iou\tpsnr\tseconds\tstart\tfailure";
-constexpr size_t kColumns = 13;
+    "volume_iou\tnormal_consistency\troughness\tpsnr\tseconds\tstart\tfailure";
+constexpr size_t kColumns = 15;
 
 std::string OneCell(std::string text) {
   std::replace_if(
@@ -28,10 +28,11 @@ std::string OneCell(std::string text) {
 
 std::string Line(const QualityRow& row) {
   char numbers[256];
-  std::snprintf(numbers, sizeof(numbers), "%d\t%.4f\t%.2f\t%.2f\t%.5f\t%.4f\t%.4f\t%.3f\t%.2f",
+  std::snprintf(numbers, sizeof(numbers),
+                "%d\t%.4f\t%.2f\t%.2f\t%.5f\t%.4f\t%.4f\t%.4f\t%.3f\t%.3f\t%.2f",
                 row.revolved ? 1 : 0, row.turning_defect, row.elevation, row.elevation_used,
-                row.scores.chamfer, row.scores.f_score, row.scores.volume_iou, row.psnr,
-                row.seconds);
+                row.scores.chamfer, row.scores.f_score, row.scores.volume_iou,
+                row.scores.normal_consistency, row.scores.roughness, row.psnr, row.seconds);
   return OneCell(row.object) + '\t' + row.variant + '\t' + numbers + '\t' + OneCell(row.start) +
          '\t' + OneCell(row.failure);
 }
@@ -54,11 +55,11 @@ QualityRow Parsed(const std::string& line, const std::string& where) {
   row.turning_defect = number(3);
   row.elevation = number(4);
   row.elevation_used = number(5);
-  row.scores = {number(6), number(7), number(8)};
-  row.psnr = number(9);
-  row.seconds = number(10);
-  row.start = cells[11];
-  row.failure = cells[12];
+  row.scores = {number(6), number(7), number(8), number(9), number(10)};
+  row.psnr = number(11);
+  row.seconds = number(12);
+  row.start = cells[13];
+  row.failure = cells[14];
   return row;
 }
 
@@ -109,12 +110,15 @@ void PrintVariant(const Rows& rows, const std::string& variant) {
   const Spread f_mean = MeanOf(Values(rows, f)), iou_mean = MeanOf(Values(rows, iou));
   const auto failed = std::count_if(rows.begin(), rows.end(),
                                     [](const QualityRow* row) { return !row->failure.empty(); });
-  std::printf("%-10s %4zu %5ld %8.4f %6.3f %6.3f %6.2f %7.1f   %.3f +- %.3f  %.3f +- %.3f\n",
-              variant.c_str(), rows.size(), static_cast<long>(failed),
-              median([](const QualityRow& r) { return r.scores.chamfer; }), median(f), median(iou),
-              median([](const QualityRow& r) { return r.psnr; }),
-              median([](const QualityRow& r) { return r.seconds; }), f_mean.mean, f_mean.half_width,
-              iou_mean.mean, iou_mean.half_width);
+  std::printf(
+      "%-10s %4zu %5ld %8.4f %6.3f %6.3f %7.3f %6.2f %6.2f %7.1f   %.3f +- %.3f  %.3f +- %.3f\n",
+      variant.c_str(), rows.size(), static_cast<long>(failed),
+      median([](const QualityRow& r) { return r.scores.chamfer; }), median(f), median(iou),
+      median([](const QualityRow& r) { return r.scores.normal_consistency; }),
+      median([](const QualityRow& r) { return r.scores.roughness; }),
+      median([](const QualityRow& r) { return r.psnr; }),
+      median([](const QualityRow& r) { return r.seconds; }), f_mean.mean, f_mean.half_width,
+      iou_mean.mean, iou_mean.half_width);
 }
 
 // Prints how often `variant` has the smaller Chamfer distance of the two, on the objects that have
@@ -143,8 +147,9 @@ void PrintDuel(const Rows& rows, const std::string& variant, const std::string& 
 
 void PrintGroup(const char* title, const Rows& rows) {
   if (rows.empty()) return;
-  std::printf("\n%s\n%-10s %4s %5s %8s %6s %6s %6s %7s   %-15s  %s\n", title, "medians", "n",
-              "fail", "Chamfer", "F@0.1", "IoU", "PSNR", "s", "F@0.1 mean", "IoU mean (95%)");
+  std::printf("\n%s\n%-10s %4s %5s %8s %6s %6s %7s %6s %6s %7s   %-15s  %s\n", title, "medians",
+              "n", "fail", "Chamfer", "F@0.1", "IoU", "normals", "rough", "PSNR", "s", "F@0.1 mean",
+              "IoU mean (95%)");
   for (const std::string& variant : LiftVariants()) {
     const Rows chosen = OfVariant(rows, variant);
     if (!chosen.empty()) PrintVariant(chosen, variant);
@@ -156,7 +161,7 @@ void PrintGroup(const char* title, const Rows& rows) {
 
 QualityRow QualityRow::Failed(const std::string& why) {
   QualityRow row;
-  row.scores = {std::numeric_limits<double>::infinity(), 0.0, 0.0};
+  row.scores = {std::numeric_limits<double>::infinity(), 0.0, 0.0, 0.0, NAN};
   row.psnr = NAN;
   row.seconds = NAN;
   row.failure = why.empty() ? "failed" : why;
@@ -196,15 +201,17 @@ void QualityTable::Add(const QualityRow& row) {
 }
 
 void PrintRowNames() {
-  std::printf("%-34s %-10s %3s %5s %5s %8s %6s %6s %6s %7s  %s\n", "object", "variant", "rev",
-              "elev", "used", "Chamfer", "F@0.1", "IoU", "PSNR", "s", "start");
+  std::printf("%-34s %-10s %3s %5s %5s %8s %6s %6s %7s %6s %6s %7s  %s\n", "object", "variant",
+              "rev", "elev", "used", "Chamfer", "F@0.1", "IoU", "normals", "rough", "PSNR", "s",
+              "start");
 }
 
 void PrintRow(const QualityRow& row) {
-  std::printf("%-34.34s %-10s %3s %5.1f %5.1f %8.4f %6.3f %6.3f %6.2f %7.1f  %s\n",
+  std::printf("%-34.34s %-10s %3s %5.1f %5.1f %8.4f %6.3f %6.3f %7.3f %6.2f %6.2f %7.1f  %s\n",
               row.object.c_str(), row.variant.c_str(), row.revolved ? "yes" : "no", row.elevation,
               row.elevation_used, row.scores.chamfer, row.scores.f_score, row.scores.volume_iou,
-              row.psnr, row.seconds, row.failure.empty() ? row.start.c_str() : row.failure.c_str());
+              row.scores.normal_consistency, row.scores.roughness, row.psnr, row.seconds,
+              row.failure.empty() ? row.start.c_str() : row.failure.c_str());
   std::fflush(stdout);
 }
 
