@@ -22,7 +22,7 @@ inline constexpr const char* kRobotKind = "robot";
 struct ArticulatedLink {
   std::string name;           // "door", "handle_0": letters, digits, '_'
   std::string label;          // the part's role: "door", "handle" (docs/formats.md lists them)
-  core::TexturedMesh visual;  // colours by material, no textures
+  core::TexturedMesh visual;  // each material a colour, and a texture at most
   std::vector<core::TriangleMesh> parts;  // closed, convex, outward
   std::vector<double> densities;          // kg/m^3, one per part; they determine the inertial
   Inertial inertial;
@@ -61,6 +61,9 @@ UrdfModel ModelOf(const ArticulatedAsset& asset);
 // Returns mass, centre of mass and inertia of all links as one body, in the root's frame.
 Inertial CombinedInertial(const UrdfModel& model,
                           const std::map<std::string, double>& positions = {});
+
+// Appends a visual with its materials and textures; equal textures are kept once.
+void AppendVisual(const core::TexturedMesh& addition, core::TexturedMesh* visual);
 
 // Returns all visuals as one mesh in the root's frame, with the joints at `positions` (by name; rad
 // or m).

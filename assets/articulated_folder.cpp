@@ -94,11 +94,12 @@ Joint JointFrom(const core::JsonField& field) {
 core::TexturedMesh VisualFrom(const core::JsonField& files, const fs::path& folder) {
   core::TexturedMesh visual;
   for (const std::string& file : files.Texts()) {
-    const core::TexturedMesh piece = ReadMesh(core::ResolveInside(folder, file));
-    core::Append(piece.mesh, &visual.mesh);
-    const int index = static_cast<int>(visual.materials.size());
-    visual.triangle_material.resize(visual.mesh.triangles.size(), index);
-    visual.materials.push_back(piece.materials.empty() ? core::Material{} : piece.materials.back());
+    core::TexturedMesh piece = ReadMesh(core::ResolveInside(folder, file));
+    piece.triangle_material.assign(piece.mesh.triangles.size(), 0);
+    piece.materials = {piece.materials.empty() ? core::Material{} : piece.materials.back()};
+    piece.part_names.clear();
+    piece.triangle_part.clear();
+    AppendVisual(piece, &visual);
   }
   return visual;
 }
@@ -149,7 +150,7 @@ void RequireLinkTree(const ArticulatedAsset& asset, const std::string& where) {
 void WriteArticulatedAsset(const ArticulatedAsset& asset, const fs::path& folder) {
   for (const ArticulatedLink& link : asset.links) {
     for (const ColoredPiece& piece : ColoredPieces(link)) {
-      WriteVisual(piece.mesh, folder, piece.stem);
+      WriteVisual(piece.mesh, folder, piece.stem, piece.texture);
     }
     for (size_t i = 0; i < link.parts.size(); ++i) {
       core::WriteFile(folder / LinkCollisionFileName(link.name, static_cast<int>(i)),

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
+#include <utility>
 
 #include <tinyxml2.h>
 
@@ -31,6 +33,8 @@ void UrdfVisual(Printer* printer, const ColoredPiece& piece) {
     Element geometry(printer, "geometry");
     Element(printer, "mesh").Set("filename", piece.stem + ".obj");
   }
+  // A colour would replace the texture that the mesh file names.
+  if (!piece.texture.empty()) return;
   const Eigen::Vector4f& c = piece.mesh.materials.front().base_color;
   Element material(printer, "material");
   material.Set("name", piece.stem);
@@ -74,14 +78,26 @@ std::string MeshName(const std::string& asset, const std::string& file) {
   return asset + "_" + file.substr(0, file.find('.'));
 }
 
+// Declares a texture and the material that shows it, both by the texture's name.
+void MjcfTexture(Printer* printer, const std::string& asset, const std::string& file) {
+  const std::string name = MeshName(asset, file);
+  Element(printer, "texture").Set("name", name).Set("type", "2d").Set("file", file);
+  Element(printer, "material").Set("name", name).Set("texture", name);
+}
+
 void MjcfMeshes(Printer* printer, const ArticulatedAsset& asset) {
   Element assets(printer, "asset");
+  std::set<std::string> textures;
   const auto add = [&](const std::string& file) {
     Element(printer, "mesh").Set("name", MeshName(asset.name, file)).Set("file", file);
   };
   for (const ArticulatedLink& link : asset.links) {
     for (const ColoredPiece& piece : ColoredPieces(link)) {
-      if (VisualSuitsMujoco(piece.mesh.mesh)) add(piece.stem + ".obj");
+      if (!VisualSuitsMujoco(piece.mesh.mesh)) continue;
+      if (!piece.texture.empty() && textures.insert(piece.texture).second) {
+        MjcfTexture(printer, asset.name, piece.texture);
+      }
+      add(piece.stem + ".obj");
     }
     for (size_t i = 0; i < link.parts.size(); ++i) {
       add(LinkCollisionFileName(link.name, static_cast<int>(i)));
@@ -92,14 +108,18 @@ void MjcfMeshes(Printer* printer, const ArticulatedAsset& asset) {
 void MjcfGeoms(Printer* printer, const std::string& asset, const ArticulatedLink& link) {
   for (const ColoredPiece& piece : ColoredPieces(link)) {
     if (!VisualSuitsMujoco(piece.mesh.mesh)) continue;
-    const Eigen::Vector4f& c = piece.mesh.materials.front().base_color;
-    Element(printer, "geom")
-        .Set("type", "mesh")
+    Element geom(printer, "geom");
+    geom.Set("type", "mesh")
         .Set("mesh", MeshName(asset, piece.stem))
         .Set("contype", "0")
         .Set("conaffinity", "0")
-        .Set("group", "2")
-        .Set("rgba", Numbers({c.x(), c.y(), c.z(), c.w()}));
+        .Set("group", "2");
+    if (!piece.texture.empty()) {
+      geom.Set("material", MeshName(asset, piece.texture));
+      continue;
+    }
+    const Eigen::Vector4f& c = piece.mesh.materials.front().base_color;
+    geom.Set("rgba", Numbers({c.x(), c.y(), c.z(), c.w()}));
   }
   for (size_t i = 0; i < link.parts.size(); ++i) {
     const std::string file = LinkCollisionFileName(link.name, static_cast<int>(i));
@@ -150,37 +170,56 @@ void MjcfBodies(Printer* printer, const ArticulatedAsset& asset, size_t link) {
   }
 }
 
+// Returns the triangles of one material with that material alone, and its texture if it has one.
+core::TexturedMesh PieceOfMaterial(const core::TexturedMesh& visual, int m) {
+  core::TexturedMesh piece;
+  core::Material material = visual.materials[static_cast<size_t>(m)];
+  const bool textured = material.texture >= 0 && !visual.corner_uvs.empty();
+  std::vector<int> index_of(visual.mesh.vertices.size(), -1);
+  for (size_t t = 0; t < visual.mesh.triangles.size(); ++t) {
+    if (visual.triangle_material[t] != m) continue;
+    Eigen::Vector3i triangle = visual.mesh.triangles[t];
+    for (int& corner : triangle) {
+      int& index = index_of[static_cast<size_t>(corner)];
+      if (index < 0) {
+        index = static_cast<int>(piece.mesh.vertices.size());
+        piece.mesh.vertices.push_back(visual.mesh.vertices[static_cast<size_t>(corner)]);
+      }
+      corner = index;
+    }
+    piece.mesh.triangles.push_back(triangle);
+    for (size_t k = 0; textured && k < 3; ++k) {
+      piece.corner_uvs.push_back(visual.corner_uvs[3 * t + k]);
+    }
+  }
+  if (textured) piece.textures = {visual.textures[static_cast<size_t>(material.texture)]};
+  material.texture = textured ? 0 : -1;
+  piece.triangle_material.assign(piece.mesh.triangles.size(), 0);
+  piece.materials = {material};
+  return piece;
+}
+
+// Returns "texture_3fa91c0277d1.png" from a hash of the pixels (FNV-1a).
+std::string TextureNameOf(const core::Image& texture) {
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const std::uint8_t byte : texture.pixels) hash = (hash ^ byte) * 1099511628211ull;
+  char name[48];
+  std::snprintf(name, sizeof(name), "texture_%012llx.png",
+                static_cast<unsigned long long>(hash >> 16));
+  return name;
+}
+
 }  // namespace
 
 std::vector<ColoredPiece> ColoredPieces(const ArticulatedLink& link) {
-  if (!link.visual.textures.empty()) {
-    throw core::Error("links must have colours, not textures", link.name);
-  }
   std::vector<ColoredPiece> pieces;
   for (size_t m = 0; m < link.visual.materials.size(); ++m) {
-    core::TriangleMesh mesh;
-    std::vector<int> index_of(link.visual.mesh.vertices.size(), -1);
-    for (size_t t = 0; t < link.visual.mesh.triangles.size(); ++t) {
-      if (link.visual.triangle_material[t] != static_cast<int>(m)) continue;
-      Eigen::Vector3i triangle = link.visual.mesh.triangles[t];
-      for (int& corner : triangle) {
-        int& index = index_of[static_cast<size_t>(corner)];
-        if (index < 0) {
-          index = static_cast<int>(mesh.vertices.size());
-          mesh.vertices.push_back(link.visual.mesh.vertices[static_cast<size_t>(corner)]);
-        }
-        corner = index;
-      }
-      mesh.triangles.push_back(triangle);
-    }
-    if (mesh.empty()) continue;
+    core::TexturedMesh mesh = PieceOfMaterial(link.visual, static_cast<int>(m));
+    if (mesh.mesh.empty()) continue;
     char number[32];
     std::snprintf(number, sizeof(number), "_visual_%03zu", m);
-    ColoredPiece piece{link.name + number, {}};
-    piece.mesh.triangle_material.assign(mesh.triangles.size(), 0);
-    piece.mesh.mesh = std::move(mesh);
-    piece.mesh.materials = {link.visual.materials[m]};
-    pieces.push_back(std::move(piece));
+    std::string texture = mesh.textures.empty() ? "" : TextureNameOf(mesh.textures.front());
+    pieces.push_back({link.name + number, std::move(mesh), std::move(texture)});
   }
   return pieces;
 }

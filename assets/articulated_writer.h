@@ -8,14 +8,17 @@
 
 namespace simwright::assets {
 
-// A visual of one colour, written to a file of its own, so that every viewer of URDF and MJCF shows
-// its colour.
+// A visual of one material, written to a file of its own, so that every viewer of URDF and MJCF
+// shows its colour.
 struct ColoredPiece {
   std::string stem;  // "door_visual_000"
   core::TexturedMesh mesh;
+  // The file name of its texture, made from the pixels, so that pieces of one texture share a file;
+  // empty for a plain colour.
+  std::string texture;
 };
 
-// Returns the link's visual, one piece per material. Throws core::Error if it has textures.
+// Returns the link's visual, one piece per material.
 std::vector<ColoredPiece> ColoredPieces(const ArticulatedLink& link);
 
 // Returns the link's hydroelastic contact properties for Drake.

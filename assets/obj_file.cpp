@@ -35,7 +35,15 @@ std::vector<std::string> MaterialNames(const core::TexturedMesh& visual) {
   return names;
 }
 
-std::string MtlText(const core::TexturedMesh& visual, const std::vector<std::string>& names) {
+std::vector<std::string> TextureNames(const core::TexturedMesh& visual, const std::string& shared) {
+  std::vector<std::string> names(visual.textures.size(), shared);
+  const int count = static_cast<int>(names.size());
+  for (int i = 0; i < count && shared.empty(); ++i) names[i] = TextureFileName(i, count);
+  return names;
+}
+
+std::string MtlText(const core::TexturedMesh& visual, const std::vector<std::string>& names,
+                    const std::vector<std::string>& textures) {
   std::string text;
   for (size_t i = 0; i < visual.materials.size(); ++i) {
     const core::Material& material = visual.materials[i];
@@ -45,8 +53,7 @@ std::string MtlText(const core::TexturedMesh& visual, const std::vector<std::str
     Print(&text, "d %.6g\n", material.base_color.w());
     text += "illum 1\n";
     if (material.texture >= 0) {
-      text += "map_Kd " +
-              TextureFileName(material.texture, static_cast<int>(visual.textures.size())) + "\n";
+      text += "map_Kd " + textures[static_cast<size_t>(material.texture)] + "\n";
     }
   }
   return text;
@@ -124,13 +131,15 @@ std::string ObjText(const core::TriangleMesh& mesh, bool exact) {
 }
 
 void WriteVisual(const core::TexturedMesh& visual, const std::filesystem::path& folder,
-                 const std::string& stem) {
+                 const std::string& stem, const std::string& shared_texture) {
   const std::vector<std::string> names = MaterialNames(visual);
+  const std::vector<std::string> textures = TextureNames(visual, shared_texture);
   core::WriteFile(folder / (stem + ".obj"), VisualObjText(visual, names, stem));
-  core::WriteFile(folder / (stem + ".mtl"), MtlText(visual, names));
-  const int count = static_cast<int>(visual.textures.size());
-  for (int i = 0; i < count; ++i) {
-    core::WritePng(folder / TextureFileName(i, count), visual.textures[i]);
+  core::WriteFile(folder / (stem + ".mtl"), MtlText(visual, names, textures));
+  for (size_t i = 0; i < textures.size(); ++i) {
+    // Pieces of one look share a file, whose name depends on its pixels.
+    if (!shared_texture.empty() && std::filesystem::exists(folder / textures[i])) continue;
+    core::WritePng(folder / textures[i], visual.textures[i]);
   }
 }
 

@@ -12,10 +12,11 @@ namespace simwright::assets {
 std::string ObjText(const core::TriangleMesh& mesh, bool exact = false);
 
 // Writes `STEM.obj`, `STEM.mtl` and the textures ("texture.png", or "texture_000.png" ... for
-// several) into `folder`. Parts become groups ("o NAME"), materials keep their names. PNG textures
-// are copied unchanged. Throws core::Error if a file cannot be written.
+// several; with `shared_texture` one texture of that name) into `folder`. Parts become groups
+// ("o NAME"), materials keep their names. PNG textures are copied unchanged. Throws core::Error if
+// a file cannot be written.
 void WriteVisual(const core::TexturedMesh& visual, const std::filesystem::path& folder,
-                 const std::string& stem = "visual");
+                 const std::string& stem = "visual", const std::string& shared_texture = "");
 
 // Returns the name of texture `index` out of `count`.
 std::string TextureFileName(int index, int count);

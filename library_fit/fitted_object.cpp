@@ -59,6 +59,56 @@ std::map<std::string, Eigen::Vector3f> SeenColors(const FittedInstance& fit,
   return colors;
 }
 
+// Gives the looks of a mesh their mean colours in the photo.
+void TakeColors(const std::map<std::string, Eigen::Vector3f>& colors,
+                std::vector<core::Material>* materials) {
+  for (core::Material& material : *materials) {
+    const auto seen = colors.find(material.name);
+    if (seen != colors.end()) material.base_color.head<3>() = seen->second;
+  }
+}
+
+// Returns the mesh of `instance`, the fitted one or that in another size, with the photo's colours
+// where it shows the surface and the colours of its looks elsewhere. The triangles keep their
+// order.
+core::TexturedMesh PaintedInstance(const FittedInstance& fit, const Instance& instance,
+                                   const FitPhoto& photo,
+                                   const std::map<std::string, Eigen::Vector3f>& colors) {
+  core::TexturedMesh mesh = InstanceMesh(instance);
+  core::Camera camera = PhotoCamera(fit, photo);
+  camera.world_from_camera.translation() *=
+      core::Bounds(mesh.mesh).sizes().z() /
+      core::Bounds(InstanceMesh(fit.instance).mesh).sizes().z();
+  TakeColors(colors, &mesh.materials);
+  std::vector<Eigen::Vector3f> hidden(mesh.mesh.vertices.size(), Eigen::Vector3f::Constant(0.5f));
+  for (size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+    const auto material = static_cast<size_t>(mesh.triangle_material[t]);
+    for (const int corner : mesh.mesh.triangles[t]) {
+      hidden[static_cast<size_t>(corner)] = mesh.materials[material].base_color.head<3>();
+    }
+  }
+  return texture::ProjectPhotos(mesh.mesh, {{camera, photo.photo, photo.alpha}}, hidden);
+}
+
+// Shows the painted mesh on the links whose triangles it lists in their order. Translucent looks
+// stay plain.
+void TakeTexture(const core::TexturedMesh& painted, std::vector<assets::ArticulatedLink>* links) {
+  size_t first = 0;
+  for (assets::ArticulatedLink& link : *links) {
+    core::TexturedMesh& visual = link.visual;
+    const size_t count = visual.mesh.triangles.size();
+    const auto photo = static_cast<int>(visual.materials.size());
+    for (int& material : visual.triangle_material) {
+      if (visual.materials[static_cast<size_t>(material)].base_color.w() >= 1.0f) material = photo;
+    }
+    visual.materials.push_back({"photo", Eigen::Vector4f::Ones(), 0});
+    visual.textures = painted.textures;
+    const auto uv = painted.corner_uvs.begin() + static_cast<std::ptrdiff_t>(3 * first);
+    visual.corner_uvs.assign(uv, uv + static_cast<std::ptrdiff_t>(3 * count));
+    first += count;
+  }
+}
+
 }  // namespace
 
 FittedMesh TexturedFit(const FittedInstance& fit, const FitPhoto& photo) {
@@ -87,12 +137,14 @@ assets::ArticulatedAsset FittedAsset(const FittedInstance& fit, const FitPhoto& 
   assets::ArticulatedAsset asset = InstanceAsset(instance);
   const std::map<std::string, Eigen::Vector3f> colors = SeenColors(fit, photo);
   for (assets::ArticulatedLink& link : asset.links) {
-    for (core::Material& material : link.visual.materials) {
-      const auto seen = colors.find(material.name);
-      if (seen != colors.end()) material.base_color.head<3>() = seen->second;
-    }
+    TakeColors(colors, &link.visual.materials);
   }
+  TakeTexture(PaintedInstance(fit, instance, photo, colors), &asset.links);
   return asset;
+}
+
+core::TexturedMesh PaintedFit(const FittedInstance& fit, const FitPhoto& photo) {
+  return PaintedInstance(fit, fit.instance, photo, SeenColors(fit, photo));
 }
 
 PhotoAgreement AgreementWithPhoto(const core::TexturedMesh& mesh, const core::Camera& camera,

@@ -19,11 +19,16 @@ struct FittedMesh {
 // Throws core::Error where the camera sees nothing of the mesh.
 FittedMesh TexturedFit(const FittedInstance& fit, const FitPhoto& photo);
 
-// Returns the fitted articulated object in the library's frame, the front towards -x. Each look of
-// its parts takes its mean colour in the photo; looks that the photo does not show keep the
-// library's. `height`: of the asset, m; 0: as fitted. Throws core::Error for a rigid kind.
+// Returns the fitted articulated object in the library's frame, the front towards -x. Surfaces that
+// the photo shows take its colours, as a texture that all links share. The others take the mean
+// colour in the photo of their look, and looks that the photo does not show keep the library's.
+// `height`: of the asset, m; 0: as fitted. Throws core::Error for a rigid kind.
 assets::ArticulatedAsset FittedAsset(const FittedInstance& fit, const FitPhoto& photo,
                                      double height = 0.0);
+
+// Returns the fitted instance in its pose in the photo (PhotoCamera sees it), coloured as
+// FittedAsset is.
+core::TexturedMesh PaintedFit(const FittedInstance& fit, const FitPhoto& photo);
 
 // The agreement of any mesh, seen by a camera for the photo's pixels, with the photo.
 struct PhotoAgreement {

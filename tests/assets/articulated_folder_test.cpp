@@ -50,6 +50,35 @@ TEST_F(ArticulatedFolder, ReadsBackWhatItWrote) {
   EXPECT_TRUE(a.parent_from_joint.isApprox(b.parent_from_joint, 1e-15));
 }
 
+// Links that show one photo share its file; a plain look beside it stays plain.
+TEST_F(ArticulatedFolder, LinksShareATexture) {
+  const ArticulatedAsset written = TexturedArticulated();
+  const core::TemporaryFolder folder;
+  WriteArticulatedAsset(written, folder.path());
+  int pictures = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    pictures += entry.path().extension() == ".png";
+  }
+  EXPECT_EQ(pictures, 1);
+  const ArticulatedAsset read = ReadArticulatedAsset(folder.path());
+  for (size_t i = 0; i < read.links.size(); ++i) {
+    const core::TexturedMesh &a = read.links[i].visual, &b = written.links[i].visual;
+    ASSERT_EQ(a.textures.size(), 1u);
+    EXPECT_EQ(a.textures[0].pixels, b.textures[0].pixels);
+    EXPECT_EQ(a.materials[0].texture, 0);
+    EXPECT_EQ(a.materials[1].texture, -1);
+    EXPECT_EQ(a.materials[1].base_color, b.materials[1].base_color);
+    ASSERT_EQ(a.corner_uvs.size(), b.corner_uvs.size());
+    // Triangles are written by material: triangle 3 is the last one.
+    EXPECT_TRUE(a.corner_uvs[3 * 4].isApprox(b.corner_uvs[3 * 5]));
+  }
+  EXPECT_EQ(VisualAtPositions(read).textures.size(), 1u);
+  // A <material> in the URDF would replace the texture of the mesh file.
+  const std::string urdf = core::ReadFile(folder.path() / "sample_chest.urdf");
+  EXPECT_EQ(urdf.find("body_visual_000\">"), std::string::npos);
+  EXPECT_NE(urdf.find("name=\"body_visual_001\""), std::string::npos);
+}
+
 // The path is relative to the folder above, as on a command line.
 TEST_F(ArticulatedFolder, ReadsBackByARelativePath) {
   const fs::path before = fs::current_path();

@@ -59,4 +59,21 @@ inline ArticulatedAsset SampleArticulated() {
   return asset;
 }
 
+// The chest with a texture of its own on the first look of all links.
+inline ArticulatedAsset TexturedArticulated() {
+  ArticulatedAsset asset = SampleArticulated();
+  core::Image texture(8, 8, 3);
+  for (size_t i = 0; i < texture.pixels.size(); ++i) {
+    texture.pixels[i] = static_cast<std::uint8_t>(37 * i % 251);
+  }
+  for (ArticulatedLink& link : asset.links) {
+    link.visual.textures = {texture};
+    link.visual.materials[0].texture = 0;
+    for (size_t i = 0; i < 3 * link.visual.mesh.triangles.size(); ++i) {
+      link.visual.corner_uvs.emplace_back(0.01f * static_cast<float>(i % 90), 0.25f);
+    }
+  }
+  return asset;
+}
+
 }  // namespace simwright::assets

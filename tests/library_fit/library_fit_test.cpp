@@ -216,6 +216,64 @@ TEST(LibraryFit, TheHeightScalesAnArticulatedFit) {
   EXPECT_THROW(FittedAsset(fit, photo), core::Error);
 }
 
+// Returns the share of an image's pixels that are red.
+double RedShare(const core::Image& image) {
+  int red = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* p = image.At(x, y);
+      red += p[0] > 180 && p[1] < 60 && p[2] < 60;
+    }
+  }
+  return red / static_cast<double>(image.width * image.height);
+}
+
+core::Image Unlit(const core::TexturedMesh& mesh, const core::Camera& camera) {
+  render::Scene scene;
+  scene.Add(&mesh);
+  scene.Commit();
+  render::ForwardOptions options;
+  options.shaded = true;
+  options.lit = false;
+  return render::RenderForward(scene, camera, options).color;
+}
+
+// A sticker in the photo is on the asset, where the photo shows it, and on no other side.
+TEST(LibraryFit, AnArticulatedFitShowsThePhoto) {
+  FittedInstance fit;
+  fit.instance = SampleInstance(FindFitKind("microwave"), kTestSeed);
+  fit.view = FrontView();
+  Shown shown = Show(fit.instance, FrontView());
+  for (int y = kSide / 2 - 12; y < kSide / 2 + 12; ++y) {
+    for (int x = kSide / 2 - 12; x < kSide / 2 + 12; ++x) {
+      std::uint8_t* p = shown.photo.At(x, y);
+      p[0] = 230;
+      p[1] = p[2] = 20;
+    }
+  }
+  const FitPhoto photo = FitPhotoOf(shown.photo, shown.alpha);
+  const core::Image seen = Unlit(PaintedFit(fit, photo), PhotoCamera(fit, photo));
+  EXPECT_NEAR(RedShare(seen), 24.0 * 24.0 / (kSide * kSide), 0.2 * 24.0 * 24.0 / (kSide * kSide));
+  const std::uint8_t* middle = seen.At(kSide / 2, kSide / 2);
+  EXPECT_GT(middle[0], 180);
+  EXPECT_LT(middle[1], 60);
+  const assets::ArticulatedAsset asset = FittedAsset(fit, photo, 0.4);
+  for (const assets::ArticulatedLink& link : asset.links) {
+    ASSERT_EQ(link.visual.textures.size(), 1u) << link.name;
+    EXPECT_EQ(link.visual.corner_uvs.size(), 3 * link.visual.mesh.triangles.size());
+  }
+  const core::TexturedMesh whole = assets::VisualAtPositions(asset);
+  EXPECT_EQ(whole.textures.size(), 1u);
+  FitView behind = FrontView();
+  behind.azimuth += M_PI;
+  const auto from = [&](const FitView& view) {
+    return RedShare(Unlit(
+        whole, CropCameraOf(view, whole.mesh, {0.5 * kSide, 0.5 * kSide}, 0.35 * kSide, kSide)));
+  };
+  EXPECT_GT(from(FrontView()), 0.007);
+  EXPECT_LT(from(behind), 0.0005);
+}
+
 TEST(LibraryFit, RefusesBadInput) {
   const core::Image photo(40, 40, 3), empty(40, 40, 1), other(20, 40, 1, 255);
   EXPECT_THROW(FitPhotoOf(photo, empty), core::Error);

@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include "assets/articulated_folder.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "sim/max_displacement.h"
 #include "sim/mujoco_scene.h"
+#include "tests/assets/sample_articulated.h"
 #include "tests/assets/sample_world.h"
 
 namespace simwright::sim {
@@ -42,6 +44,27 @@ class MujocoWorlds : public testing::Test {
   const core::TemporaryFolder folder_;
   const assets::SampleWorld sample_{folder_.path()};
 };
+
+TEST(MujocoTextures, AnArticulatedAssetKeepsItsTexture) {
+  const core::TemporaryFolder folder;
+  assets::WriteArticulatedAsset(assets::TexturedArticulated(), folder.path());
+  char error[500] = "";
+  mjModel* model =
+      mj_loadXML((folder.path() / "sample_chest.xml").c_str(), nullptr, error, sizeof error);
+  ASSERT_NE(model, nullptr) << error;
+  EXPECT_STREQ(error, "");
+  EXPECT_EQ(model->ntex, 1);
+  ASSERT_EQ(model->nmat, 1);
+  EXPECT_EQ(model->mat_texid[0], 0);
+  int textured = 0;
+  for (int i = 0; i < model->ngeom; ++i) {
+    if (model->geom_matid[i] != 0) continue;
+    ++textured;
+    EXPECT_GE(model->mesh_texcoordadr[model->geom_dataid[i]], 0);
+  }
+  EXPECT_EQ(textured, 3);  // one look of each link
+  mj_deleteModel(model);
+}
 
 TEST_F(MujocoWorlds, LoadWithTheAssetsNumbers) {
   const MujocoScene scene(Write(sample_.objects), {}, MujocoScene::Ground::kOwn);

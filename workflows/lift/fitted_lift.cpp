@@ -134,13 +134,14 @@ LiftOutcome FinishArticulated(const ChosenFit& chosen, const Finishing& finishin
   core::WritePng(staged->staging() / "preview.png", asset_build::ArticulatedPreview(asset));
   const core::Image cut = CutOut(lifted.photo, lifted.matte.alpha);
   core::WritePng(staged->staging() / "matte.png", cut);
-  core::TexturedMesh shown = library_fit::InstanceMesh(chosen.fit.instance);
+  core::TexturedMesh shown = library_fit::PaintedFit(chosen.fit, chosen.photo);
   render::Scene scene;
   scene.Add(&shown);
   scene.Commit();
   render::ForwardOptions options;
   options.samples_per_side = 2;
   options.shaded = true;
+  options.lit = false;  // the photo's colours contain its light
   const core::Camera camera = library_fit::PhotoCamera(chosen.fit, chosen.photo);
   core::WritePng(staged->staging() / "lift.png",
                  core::ContactSheet(
