@@ -57,13 +57,13 @@ double DistanceGrid::At(const Eigen::Vector3d& point, Eigen::Vector3d* gradient)
   const double x11 = (1 - u) * node(0, 1, 1) + u * node(1, 1, 1);
   const double y0 = (1 - v) * x00 + v * x10, y1 = (1 - v) * x01 + v * x11;
   if (gradient != nullptr) {
-    const double dx0 = (1 - v) * (node(1, 0, 0) - node(0, 0, 0)) +
-                       v * (node(1, 1, 0) - node(0, 1, 0));
-    const double dx1 = (1 - v) * (node(1, 0, 1) - node(0, 0, 1)) +
-                       v * (node(1, 1, 1) - node(0, 1, 1));
-    *gradient = Eigen::Vector3d((1 - w) * dx0 + w * dx1, (1 - w) * (x10 - x00) + w * (x11 - x01),
-                                y1 - y0) /
-                grid_.cell;
+    const double dx0 =
+        (1 - v) * (node(1, 0, 0) - node(0, 0, 0)) + v * (node(1, 1, 0) - node(0, 1, 0));
+    const double dx1 =
+        (1 - v) * (node(1, 0, 1) - node(0, 0, 1)) + v * (node(1, 1, 1) - node(0, 1, 1));
+    *gradient =
+        Eigen::Vector3d((1 - w) * dx0 + w * dx1, (1 - w) * (x10 - x00) + w * (x11 - x01), y1 - y0) /
+        grid_.cell;
   }
   return (1 - w) * y0 + w * y1 + grid_.cell * (at - held).norm();
 }

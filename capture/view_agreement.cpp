@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kLeastAgreement = 0.75;  // IoU of a view's mask and the hull's silhouette
 
-// Returns the intersection of two masks over their union.
+}  // namespace
+
 double MaskIou(const core::FloatImage& a, const core::FloatImage& b) {
   double both = 0.0, either = 0.0;
   for (std::size_t i = 0; i < a.values.size(); ++i) {
@@ -23,8 +24,6 @@ double MaskIou(const core::FloatImage& a, const core::FloatImage& b) {
   }
   return either > 0.0 ? both / either : 1.0;
 }
-
-}  // namespace
 
 HullVote VoteOf(const std::vector<CaptureView>& views, double tolerated,
                 const std::vector<MatEvidence>& evidence) {

@@ -20,6 +20,9 @@ HullVote VoteOf(const std::vector<CaptureView>& views, double tolerated,
 core::TriangleMesh HullOf(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
                           int cells);
 
+// Returns the intersection of two masks over their union.
+double MaskIou(const core::FloatImage& a, const core::FloatImage& b);
+
 // Returns the box grown on all sides by 6 % of its diagonal.
 Eigen::AlignedBox3d Grown(Eigen::AlignedBox3d box);
 

@@ -61,6 +61,9 @@ core::TriangleMesh VotingHull(const std::vector<HullVote>& votes, const Eigen::A
       for (int i = 0; i < field.nx; ++i) {
         const Eigen::Vector3d p = field.origin + field.cell * Eigen::Vector3d(i, j, k);
         double outside = options.floor - p.z();
+        for (const auto& plane : options.planes) {
+          outside = std::max(outside, -plane.signedDistance(p));
+        }
         for (const ConeVote& vote : cones) outside = std::max(outside, vote.At(p, &distances));
         field.values[field.Index(i, j, k)] = static_cast<float>(outside);
       }

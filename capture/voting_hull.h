@@ -18,6 +18,8 @@ struct HullVote {
 struct VotingHullOptions {
   int cells = 64;      // along the longest side of the box
   double floor = 0.0;  // m: the object stands on this height; nothing is below it
+  // Other planes on which the object stood: nothing is on their negative side.
+  std::vector<Eigen::Hyperplane<double, 3>> planes = {};
 };
 
 // Returns the points of `box` (world, m) that every vote admits: a visual hull that a few wrong
