@@ -25,7 +25,7 @@ constexpr double kFacing = 0.4;            // cosine, of a view that shows a poi
 constexpr std::size_t kLeastPoints = 40;   // that both sets show
 constexpr double kLeastOutlines = 0.88;    // agreement from which a pose is trusted
 constexpr double kSameColors = 0.08;       // difference under which colours are equal
-constexpr double kClearlyBetter = 1.3;     // factor between the differences of two poses
+constexpr double kClearlyBetter = 1.25;    // factor between the differences of two poses
 constexpr double kColorReach = 0.03;       // hull diagonals, of the surroundings of a point whose
                                            // mean colour is compared: poses are not that exact
 constexpr double kColorFloor = 12.0;       // of 255, added before the logarithm
@@ -99,13 +99,12 @@ std::optional<Eigen::Vector3d> ColorAt(const std::vector<CaptureView>& views,
   return color;
 }
 
-// Returns the root mean square difference of both sets' colours on the surface, but for exposure
-// and for light that falls from above: those are linear in the heights of both normals. Nothing if
-// hardly any point is seen by both.
+// Returns the root mean square difference of both sets' colours on the surface, but for white
+// balance, and for light whose brightness is linear in the normal: turned in the same light, a side
+// is lit differently. Nothing if hardly any point is seen by both.
 std::optional<double> ColorDifference(const core::TriangleMesh& hull,
                                       const std::vector<CaptureView>& first,
-                                      const std::vector<CaptureView>& second,
-                                      const Eigen::Isometry3d& pose) {
+                                      const std::vector<CaptureView>& second) {
   const std::vector<geometry::OuterHit> hits = geometry::SampleOuterHits(hull, kColorRays, 1);
   const geometry::TriangleTree tree(hull);
   const double diagonal = core::Bounds(hull).diagonal().norm();
@@ -125,14 +124,18 @@ std::optional<double> ColorDifference(const core::TriangleMesh& hull,
   }
   if (known.size() < kLeastPoints) return std::nullopt;
   const auto rows = static_cast<Eigen::Index>(known.size());
-  Eigen::MatrixXd light(rows, 3), colors(rows, 3);
+  Eigen::MatrixXd light(rows, 4), chroma(rows, 2);
+  Eigen::VectorXd brightness(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const Eigen::Vector3d& normal = normals[static_cast<std::size_t>(i)];
-    light.row(i) << 1.0, normal.z(), normal.dot(pose.linear().col(2));
-    colors.row(i) = known[static_cast<std::size_t>(i)].transpose();
+    const Eigen::Vector3d& color = known[static_cast<std::size_t>(i)];
+    light.row(i) << 1.0, normals[static_cast<std::size_t>(i)].transpose();
+    chroma.row(i) << color[0] - color[1], color[2] - color[1];
+    brightness[i] = color.mean();
   }
-  const Eigen::MatrixXd fit = light.colPivHouseholderQr().solve(colors);
-  return std::sqrt((colors - light * fit).squaredNorm() / static_cast<double>(3 * rows));
+  chroma.rowwise() -= chroma.colwise().mean().eval();
+  brightness -= light * light.colPivHouseholderQr().solve(brightness);
+  return std::sqrt((chroma.squaredNorm() + brightness.squaredNorm()) /
+                   static_cast<double>(3 * rows));
 }
 
 double MeanIou(const core::TriangleMesh& hull, const std::vector<CaptureView>& first,
@@ -175,8 +178,7 @@ TurnedPose FindTurnedPose(const Capture& first, const Capture& second, std::uint
     core::TriangleMesh hull =
         CommonHull(first.views, views, first, pose.first_from_second, 0.05, kPoseCells);
     if (hull.empty()) continue;
-    const double color =
-        ColorDifference(hull, first.views, views, pose.first_from_second).value_or(1.0);
+    const double color = ColorDifference(hull, first.views, views).value_or(1.0);
     if (color < best_color) {
       if (best_color < 1e9) rival = best_color;
       best_color = color;

@@ -16,7 +16,7 @@ namespace simwright::cli {
 namespace {
 
 struct LiftFlags {
-  std::vector<std::filesystem::path> photos;
+  std::vector<std::filesystem::path> photos, flipped;
   std::filesystem::path mask;
   std::filesystem::path cameras;
   std::string shape = "auto";
@@ -83,8 +83,8 @@ void RequireNoneUnused(const LiftFlags& flags, const std::string& photos, bool h
 
 workflows::MatLiftRequest MatRequest(const LiftFlags& flags) {
   const workflows::LiftRequest& one = flags.request;
-  workflows::MatLiftRequest request{flags.photos, one.category, 0.1,        one.size,
-                                    one.stated,   one.seed,     one.output, one.force};
+  workflows::MatLiftRequest request{flags.photos, one.category, flags.flipped, 0.1,      one.size,
+                                    one.stated,   one.seed,     one.output,    one.force};
   if (flags.ruler > 0.0) request.ruler = 0.001 * flags.ruler;
   RequireNoneUnused(flags, "photos on a mat", false);
   return request;
@@ -144,6 +144,10 @@ int Lift(LiftFlags flags, const CommonOptions& common) {
     printer.Finish();
     return 0;
   }
+  if (!flags.flipped.empty()) {
+    throw core::Error("--flipped needs photos on a mat in both sets", "",
+                      "print one with `simwright mat`, and leave out --each");
+  }
   if (flags.together) {
     printer.Print(workflows::LiftToFolder(TableRequest(flags), &progress));
     printer.Finish();
@@ -173,6 +177,8 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright lift front.jpg left.jpg back.jpg --cameras cams.json --category mug -o mug\n"
       "  simwright lift photos/*.jpg --category mug -o mug    (photos on a mat, see simwright "
       "mat)\n"
+      "  simwright lift up/*.jpg --flipped down/*.jpg --category mug -o mug    (with the "
+      "underside)\n"
       "  simwright lift photos/*.jpg --together --category mug -o mug    (without a mat)\n"
       "  simwright lift mug.jpg --category mug --generator http://localhost:8081/generate -o mug\n"
       "  simwright lift mug.jpg --category mug --generator-command 'my_model {in} {out}' -o mug\n"
@@ -203,6 +209,10 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
                    "The length of the printed mat's ruler as measured, mm: corrects a wrong print")
       ->check(CLI::Range(50.0, 200.0))
       ->default_str("100");
+  command
+      ->add_option("--flipped", flags->flipped,
+                   "Photos of the same object on the mat, turned over: they show its underside")
+      ->excludes("--cameras");
   command->add_flag("--each", flags->each, "Each photo shows another object, even on a mat");
   command
       ->add_flag("--together", flags->together,

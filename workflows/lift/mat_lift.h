@@ -15,6 +15,8 @@ namespace simwright::workflows {
 struct MatLiftRequest {
   std::vector<std::filesystem::path> photos;
   std::string category;
+  // Photos of the same object turned over, on another side: they show the underside. May be empty.
+  std::vector<std::filesystem::path> flipped;
   double ruler = 0.1;            // m, the measured length of the mat's printed ruler
   asset_build::StatedSize size;  // overrides the size that the mat gives
   physics_params::StatedPhysics stated;
@@ -27,7 +29,9 @@ struct MatLiftRequest {
 // them show one. Photos that cannot be read count as showing none.
 bool ShowMat(const std::vector<std::filesystem::path>& photos);
 
-// Reconstructs an asset folder from photos on a mat, and writes beside the asset matte.png and
+// Reconstructs an asset folder from photos on a mat, and those of the flipped object where their
+// pose can be trusted (the finding "flipped" gives the agreement in numbers, "flipped-left-out" the
+// reason), and writes beside the asset matte.png and
 // lift.png (of the first photo) and the files of WriteCaptureReport. Throws
 // core::Error if a photo cannot be read, the category is unknown, fewer than four photos show the
 // mat, nothing stands on it, or the output exists; core::Cancelled.
