@@ -81,7 +81,12 @@ std::optional<ForeignContent> FindUnsupportedImageFormat(std::string_view bytes)
   const std::string_view brand = MediaBrand(bytes);
   for (const std::string_view heic :
        {"heic"sv, "heix"sv, "hevc"sv, "mif1"sv, "msf1"sv, "heim"sv, "heis"sv}) {
-    if (brand == heic) return named("an HEIC image (the iPhone default)");
+    if (brand != heic) continue;
+    ForeignContent found = named("an HEIC image (the iPhone default)");
+    found.remedy =
+        "convert it to JPEG, e.g. by heif-convert PHOTO.heic PHOTO.jpg, or set the phone's camera "
+        "to 'Most Compatible'";
+    return found;
   }
   if (brand == "avif" || brand == "avis") return named("an AVIF image");
   if (bytes.starts_with("\xabKTX 20\xbb"sv)) return named("a KTX2 (Basis Universal) texture");

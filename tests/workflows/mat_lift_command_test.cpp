@@ -106,6 +106,15 @@ TEST_F(MatLift, RefusesTooFewPhotosAndAHeightThatTheMatContradicts) {
   EXPECT_FALSE(fs::exists(asset));
 }
 
+TEST_F(MatLift, RefusesFlippedPhotosThatItCannotUse) {
+  const fs::path asset = folder_->path() / "flipped";
+  const Outcome each = RunProgram("lift" + Photos(4) + " --each --flipped" + Photos(4) +
+                                  " --category box -o " + asset.string());
+  EXPECT_EQ(each.code, 1);
+  EXPECT_NE(each.text.find("--flipped needs photos on a mat"), std::string::npos) << each.text;
+  EXPECT_FALSE(fs::exists(asset));
+}
+
 TEST(MatCommand, WritesAPageOfTrueSizeAndKeepsExistingFiles) {
   const core::TemporaryFolder folder;
   const fs::path file = folder.path() / "mat.pdf";
