@@ -18,7 +18,7 @@ struct OutlineSet {
   std::vector<Eigen::Vector3d> surface;  // samples of the hull
   DistanceGrid distance;
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // of the hull's volume
-  double diagonal = 0.0;   // m
+  double diagonal = 0.0;                             // m
 };
 OutlineSet OutlinesOf(const Capture& capture);
 
