@@ -60,7 +60,7 @@ macro(simwright_require link)
     find_package(nlohmann_json REQUIRED)
   elseif("${link}" MATCHES "^opencv_")
     find_package(OpenCV REQUIRED COMPONENTS core dnn imgproc imgcodecs saliency ximgproc calib3d
-                 features2d aruco)
+                 features2d aruco video videoio)
   elseif("${link}" STREQUAL "Ceres::ceres")
     find_package(Ceres REQUIRED)
   elseif("${link}" STREQUAL "CGAL::CGAL")
