@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -11,9 +12,12 @@
 #include "workflows/lift/lift.h"
 #include "workflows/lift/mat_lift.h"
 #include "workflows/lift/table_lift.h"
+#include "workflows/lift/video_photos.h"
 
 namespace simwright::cli {
 namespace {
+
+constexpr int kVideoFrames = 30;
 
 struct LiftFlags {
   std::vector<std::filesystem::path> photos, flipped;
@@ -22,6 +26,7 @@ struct LiftFlags {
   std::string shape = "auto";
   bool fast = false, outline = false, each = false, together = false;
   double ruler = 0.0;  // mm
+  int frames = 0;      // of a video; 0: kVideoFrames
   GeneratorFlags generator;
   workflows::LiftRequest request;
 };
@@ -62,10 +67,11 @@ void LiftPrinter::Print(const workflows::LiftOutcome& outcome) {
 
 // Several photos of one object take another road than a single photo: an option that only steers
 // the latter is refused instead of ignored. `photos`: how a message names them.
-void RequireNoneUnused(const LiftFlags& flags, const std::string& photos, bool height_is_used) {
+void RequireNoneUnused(const LiftFlags& flags, const std::string& photos, bool height_is_used,
+                       bool ruler_is_used) {
   const workflows::LiftRequest& one = flags.request;
   const std::pair<bool, const char*> unused[] = {{one.height > 0.0 && !height_is_used, "--height"},
-                                                 {flags.ruler > 0.0 && height_is_used, "--ruler"},
+                                                 {flags.ruler > 0.0 && !ruler_is_used, "--ruler"},
                                                  {flags.fast, "--fast"},
                                                  {flags.outline, "--outline"},
                                                  {flags.shape != "auto", "--shape"},
@@ -77,7 +83,9 @@ void RequireNoneUnused(const LiftFlags& flags, const std::string& photos, bool h
   for (const auto& [given, option] : unused) {
     if (!given) continue;
     throw core::Error(std::string(option) + " is not used with " + photos, "",
-                      "leave it out, or use --each if each photo shows another object");
+                      photos == "a video"
+                          ? "leave it out"
+                          : "leave it out, or use --each if each photo shows another object");
   }
 }
 
@@ -86,15 +94,77 @@ workflows::MatLiftRequest MatRequest(const LiftFlags& flags) {
   workflows::MatLiftRequest request{flags.photos, one.category, flags.flipped, 0.1,      one.size,
                                     one.stated,   one.seed,     one.output,    one.force};
   if (flags.ruler > 0.0) request.ruler = 0.001 * flags.ruler;
-  RequireNoneUnused(flags, "photos on a mat", false);
+  RequireNoneUnused(flags, "photos on a mat", false, true);
   return request;
 }
 
+void RequireMatForFlipped(const LiftFlags& flags) {
+  if (flags.flipped.empty()) return;
+  throw core::Error("--flipped needs photos on a mat in both sets", "",
+                    "print one with `simwright mat`, and leave out --each");
+}
+
 workflows::TableLiftRequest TableRequest(const LiftFlags& flags) {
-  RequireNoneUnused(flags, "--together", true);
+  RequireNoneUnused(flags, "photos of one object without a mat", true, false);
   const workflows::LiftRequest& one = flags.request;
   return {flags.photos, one.category, one.height, one.size,
           one.stated,   one.seed,     one.output, one.force};
+}
+
+// Frames of videos that take the place of photos.
+using TakenVideo = std::unique_ptr<workflows::VideoPhotos>;
+
+// Chooses frames of a video and puts them in its place. Returns null if `photos` holds no video.
+TakenVideo TakeVideo(int frames, std::vector<std::filesystem::path>* photos,
+                     core::Progress* progress) {
+  const auto video = std::find_if(photos->begin(), photos->end(), workflows::IsVideo);
+  if (video == photos->end()) return nullptr;
+  if (photos->size() > 1) {
+    throw core::Error("a video is given beside other files", video->string(),
+                      "give one video, or photos");
+  }
+  auto taken = std::make_unique<workflows::VideoPhotos>(*video, frames > 0 ? frames : kVideoFrames,
+                                                        progress);
+  *photos = taken->photos();
+  return taken;
+}
+
+bool HoldVideo(const std::vector<std::filesystem::path>& photos) {
+  return std::any_of(photos.begin(), photos.end(), workflows::IsVideo);
+}
+
+// Refuses the options that a lift of a video would not use, before the video is decoded.
+void RequireNoneUnusedByVideo(const LiftFlags& flags) {
+  const std::pair<bool, const char*> unused[] = {{flags.each, "--each"},
+                                                 {!flags.mask.empty(), "--mask"},
+                                                 {!flags.cameras.empty(), "--cameras"}};
+  for (const auto& [given, option] : unused) {
+    if (given) {
+      throw core::Error(std::string(option) + " is not used with a video", "", "leave it out");
+    }
+  }
+  RequireNoneUnused(flags, "a video", true, true);
+}
+
+// Lifts a video, or photos and a video of the object turned over.
+workflows::LiftOutcome LiftVideo(LiftFlags flags, core::Progress* progress) {
+  const workflows::LiftRequest& one = flags.request;
+  RequireNoneUnusedByVideo(flags);
+  workflows::RequireLiftable(one.category, one.output, one.force);
+  const TakenVideo video = TakeVideo(flags.frames, &flags.photos, progress);
+  const TakenVideo flipped = TakeVideo(flags.frames, &flags.flipped, progress);
+  const auto name_source = [&](auto request) {
+    if (video) request.source = video->source();
+    for (const TakenVideo* taken : {&video, &flipped}) {
+      if (*taken) request.findings.push_back((*taken)->finding());
+    }
+    return request;
+  };
+  if (workflows::ShowMat(flags.photos)) {
+    return workflows::LiftToFolder(name_source(MatRequest(flags)), progress);
+  }
+  RequireMatForFlipped(flags);
+  return workflows::LiftToFolder(name_source(TableRequest(flags)), progress);
 }
 
 // Returns a finding that suggests --together for photos that are lifted one by one but show one
@@ -106,30 +176,55 @@ core::Findings SuggestTogether(const LiftFlags& flags) {
            "use --together if they show one object, or --each to confirm"}};
 }
 
+void ApplyFlags(const CommonOptions& common, LiftFlags* flags) {
+  workflows::LiftRequest& request = flags->request;
+  request.seed = common.seed;
+  request.force = common.force;
+  ApplyGenerator(flags->generator, &request);
+  if (!flags->mask.empty()) request.mask = flags->mask;
+  request.shape = flags->shape == "fitted"                   ? workflows::LiftShape::kFitted
+                  : flags->shape == "free" || flags->outline ? workflows::LiftShape::kFree
+                                                             : workflows::LiftShape::kAuto;
+  if (flags->fast) request.effort = asset_lift::LiftEffort::kFast;
+  if (flags->outline) request.effort = asset_lift::LiftEffort::kOutline;
+}
+
+workflows::MultiLiftRequest CamerasRequest(const LiftFlags& flags) {
+  if (flags.photos.size() < 2) throw core::Error("--cameras needs several photos of one object");
+  if (flags.request.mask) throw core::Error("--mask needs a single photo");
+  if (flags.request.segmenter) throw core::Error("--segmenter is not used with --cameras");
+  if (flags.shape == "fitted") throw core::Error("--shape fitted is not used with --cameras");
+  const workflows::LiftRequest& one = flags.request;
+  return {flags.photos, flags.cameras, one.category, one.height, one.size,
+          one.stated,   one.effort,    one.seed,     one.output, one.force};
+}
+
+// Lifts each photo to an asset of its own.
+void LiftEach(LiftFlags flags, LiftPrinter* printer, core::Progress* progress) {
+  printer->Print(SuggestTogether(flags));
+  const std::filesystem::path output = flags.request.output;
+  for (const std::filesystem::path& photo : flags.photos) {
+    flags.request.photo = photo;
+    // Several photos show several objects, with a folder each.
+    flags.request.output = flags.photos.size() > 1 ? output / photo.stem() : output;
+    printer->Print(workflows::LiftToFolder(flags.request, progress));
+  }
+}
+
 int Lift(LiftFlags flags, const CommonOptions& common) {
   asset_build::Validate(flags.request.size);
   Validate(flags.request.stated);
   core::Progress progress(common.ProgressStyle());
   LiftPrinter printer(common);
-  flags.request.seed = common.seed;
-  flags.request.force = common.force;
-  ApplyGenerator(flags.generator, &flags.request);
-  if (!flags.mask.empty()) flags.request.mask = flags.mask;
-  flags.request.shape = flags.shape == "fitted"                  ? workflows::LiftShape::kFitted
-                        : flags.shape == "free" || flags.outline ? workflows::LiftShape::kFree
-                                                                 : workflows::LiftShape::kAuto;
-  if (flags.fast) flags.request.effort = asset_lift::LiftEffort::kFast;
-  if (flags.outline) flags.request.effort = asset_lift::LiftEffort::kOutline;
+  ApplyFlags(common, &flags);
+  if (HoldVideo(flags.photos) || HoldVideo(flags.flipped)) {
+    printer.Print(LiftVideo(std::move(flags), &progress));
+    printer.Finish();
+    return 0;
+  }
+  if (flags.frames > 0) throw core::Error("--frames needs a video");
   if (!flags.cameras.empty()) {
-    if (flags.photos.size() < 2) throw core::Error("--cameras needs several photos of one object");
-    if (flags.request.mask) throw core::Error("--mask needs a single photo");
-    if (flags.request.segmenter) throw core::Error("--segmenter is not used with --cameras");
-    if (flags.shape == "fitted") throw core::Error("--shape fitted is not used with --cameras");
-    const workflows::LiftRequest& one = flags.request;
-    printer.Print(workflows::LiftToFolder(
-        workflows::MultiLiftRequest{flags.photos, flags.cameras, one.category, one.height, one.size,
-                                    one.stated, one.effort, one.seed, one.output, one.force},
-        &progress));
+    printer.Print(workflows::LiftToFolder(CamerasRequest(flags), &progress));
     printer.Finish();
     return 0;
   }
@@ -141,25 +236,13 @@ int Lift(LiftFlags flags, const CommonOptions& common) {
   }
   if (!flags.each && workflows::ShowMat(flags.photos)) {
     printer.Print(workflows::LiftToFolder(MatRequest(flags), &progress));
-    printer.Finish();
-    return 0;
-  }
-  if (!flags.flipped.empty()) {
-    throw core::Error("--flipped needs photos on a mat in both sets", "",
-                      "print one with `simwright mat`, and leave out --each");
-  }
-  if (flags.together) {
-    printer.Print(workflows::LiftToFolder(TableRequest(flags), &progress));
-    printer.Finish();
-    return 0;
-  }
-  printer.Print(SuggestTogether(flags));
-  const std::filesystem::path output = flags.request.output;
-  for (const std::filesystem::path& photo : flags.photos) {
-    flags.request.photo = photo;
-    // Several photos show several objects, with a folder each.
-    flags.request.output = flags.photos.size() > 1 ? output / photo.stem() : output;
-    printer.Print(workflows::LiftToFolder(flags.request, &progress));
+  } else {
+    RequireMatForFlipped(flags);
+    if (flags.together) {
+      printer.Print(workflows::LiftToFolder(TableRequest(flags), &progress));
+    } else {
+      LiftEach(std::move(flags), &printer, &progress);
+    }
   }
   printer.Finish();
   return 0;
@@ -180,6 +263,7 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright lift up/*.jpg --flipped down/*.jpg --category mug -o mug    (with the "
       "underside)\n"
       "  simwright lift photos/*.jpg --together --category mug -o mug    (without a mat)\n"
+      "  simwright lift turn.mp4 --category mug -o mug    (a video, with a mat or without)\n"
       "  simwright lift mug.jpg --category mug --generator http://localhost:8081/generate -o mug\n"
       "  simwright lift mug.jpg --category mug --generator-command 'my_model {in} {out}' -o mug\n"
       "  simwright lift mug.jpg --category mug --segmenter u2net.onnx -o mug");
@@ -187,7 +271,7 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option(
           "photos", flags->photos,
           "PNG, JPEG, WebP, TIFF, GIF ... of one object each; with --cameras, --together, or "
-          "on a mat that `simwright mat` wrote, all of one object")
+          "on a mat that `simwright mat` wrote, all of one object; or one video from all around it")
       ->required();
   command->add_option("--category", flags->request.category, "The object's category, e.g. mug")
       ->required();
@@ -211,8 +295,12 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       ->default_str("100");
   command
       ->add_option("--flipped", flags->flipped,
-                   "Photos of the same object on the mat, turned over: they show its underside")
+                   "Photos (or a video) of the same object on the mat, turned over: they show its "
+                   "underside")
       ->excludes("--cameras");
+  command->add_option("--frames", flags->frames, "Frames of a video that are used at most")
+      ->check(CLI::Range(8, 200))
+      ->default_str(std::to_string(kVideoFrames));
   command->add_flag("--each", flags->each, "Each photo shows another object, even on a mat");
   command
       ->add_flag("--together", flags->together,

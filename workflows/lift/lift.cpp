@@ -49,6 +49,11 @@ double ScaleOf(double height, const physics_params::PhysicalParameters& paramete
 
 }  // namespace
 
+void RequireLiftable(const std::string& category, const fs::path& output, bool force) {
+  physics_params::RequireCategory(category);
+  const core::StagedFolder staged(output, force);
+}
+
 asset_lift::CategoryPrior PriorOf(const physics_params::Category& category) {
   asset_lift::CategoryPrior prior;
   prior.length_min = category.length.min;

@@ -77,6 +77,10 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress);
 // cameras and the photos do not match.
 LiftOutcome LiftToFolder(const MultiLiftRequest& request, core::Progress* progress);
 
+// Throws core::Error if the category is unknown, or the output exists and `force` is not set: for
+// callers that do long work before a lift.
+void RequireLiftable(const std::string& category, const std::filesystem::path& output, bool force);
+
 // Returns the reconstruction prior of a category.
 asset_lift::CategoryPrior PriorOf(const physics_params::Category& category);
 

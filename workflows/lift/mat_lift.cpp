@@ -84,7 +84,7 @@ bool ShowMat(const std::vector<std::filesystem::path>& photos) {
 LiftOutcome LiftToFolder(const MatLiftRequest& request, core::Progress* progress) {
   core::StagedFolder staged(request.output, request.force);
   const Finishing finishing{request.output,
-                            std::to_string(request.photos.size()) + " photos on a mat",
+                            NamedOr(request.source, request.photos) + " on a mat",
                             physics_params::RequireCategory(request.category),
                             0.0,
                             request.size,
@@ -100,6 +100,8 @@ LiftOutcome LiftToFolder(const MatLiftRequest& request, core::Progress* progress
   if (!request.flipped.empty()) {
     AddFlipped(flipped, options, request.seed, &source, &capture, progress);
   }
+  capture.findings.insert(capture.findings.begin(), request.findings.begin(),
+                          request.findings.end());
   capture::CaptureLiftOptions fit;
   fit.seed = request.seed;
   asset_lift::LiftedMesh lifted = capture::LiftCapture(capture, fit, progress);

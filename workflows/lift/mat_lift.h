@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asset_build/true_size.h"
+#include "core/finding.h"
 #include "core/progress.h"
 #include "physics_params/stated_physics.h"
 #include "workflows/lift/lift.h"
@@ -23,6 +24,8 @@ struct MatLiftRequest {
   std::uint64_t seed = 1;
   std::filesystem::path output;  // the asset folder
   bool force = false;
+  std::string source = {};       // named in the asset's record; empty: the number of photos
+  core::Findings findings = {};  // about the photos: reported with the capture's
 };
 
 // Returns whether the photos are to be understood as views of one object on a mat: at least two of

@@ -22,4 +22,8 @@ capture::CaptureSource SourceOf(const std::vector<std::filesystem::path>& photos
   return source;
 }
 
+std::string NamedOr(const std::string& source, const std::vector<std::filesystem::path>& photos) {
+  return source.empty() ? std::to_string(photos.size()) + " photos" : source;
+}
+
 }  // namespace simwright::workflows

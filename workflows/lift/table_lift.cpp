@@ -23,7 +23,7 @@ constexpr std::size_t kSharedTracks = 80;  // from which two photos show one sce
 LiftOutcome LiftToFolder(const TableLiftRequest& request, core::Progress* progress) {
   core::StagedFolder staged(request.output, request.force);
   const Finishing finishing{request.output,
-                            std::to_string(request.photos.size()) + " photos of one object",
+                            NamedOr(request.source, request.photos) + " of one object",
                             physics_params::RequireCategory(request.category),
                             request.height,
                             request.size,
@@ -35,6 +35,8 @@ LiftOutcome LiftToFolder(const TableLiftRequest& request, core::Progress* progre
   capture::TableCaptureOptions options;
   options.seed = request.seed;
   capture::Capture capture = capture::CaptureOnTable(source, options, progress);
+  capture.findings.insert(capture.findings.begin(), request.findings.begin(),
+                          request.findings.end());
   capture::ScaleCapture(ScaleToMetres(finishing, capture.hull), &capture);
   capture::CaptureLiftOptions fit;
   fit.seed = request.seed;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asset_build/true_size.h"
+#include "core/finding.h"
 #include "core/progress.h"
 #include "physics_params/stated_physics.h"
 #include "workflows/lift/lift.h"
@@ -21,6 +22,8 @@ struct TableLiftRequest {
   std::uint64_t seed = 1;
   std::filesystem::path output;  // the asset folder
   bool force = false;
+  std::string source = {};       // named in the asset's record; empty: the number of photos
+  core::Findings findings = {};  // about the photos: reported with the capture's
 };
 
 // Reconstructs an asset folder from photos of one object, and writes beside the asset matte.png and
