@@ -114,7 +114,7 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<PriorFlags>();
   CLI::App* command = prior->add_subcommand("train", "Train the priors");
   command->footer(
-      "Example (reproduces the shipped weights in about three hours on two cores):\n"
+      "Example (about three hours on two cores, less on a GPU):\n"
       "  simwright prior train -o models");
   command
       ->add_option("catalogues", flags->request.catalogues,
