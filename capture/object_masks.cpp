@@ -42,17 +42,6 @@ cv::Mat GrownHull(const core::FloatImage& hull) {
   return grown;
 }
 
-// Returns the hull's silhouette without its border, which shadows and wrong cameras blur.
-cv::Mat InnerHull(const core::FloatImage& hull) {
-  if (hull.empty()) return {};
-  cv::Mat inside(hull.height, hull.width, CV_8U), inner;
-  for (int y = 0; y < hull.height; ++y) {
-    for (int x = 0; x < hull.width; ++x) inside.at<std::uint8_t>(y, x) = *hull.At(x, y) >= 0.5f;
-  }
-  cv::erode(inside, inner, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
-  return inner;
-}
-
 core::FloatImage Softened(const cv::Mat& inside) {
   cv::Mat soft;
   inside.convertTo(soft, CV_32F);
@@ -90,7 +79,7 @@ core::FloatImage SegmentOnMat(const core::Image& photo, const MatEvidence& evide
       (!hull.empty() && (hull.width != photo.width || hull.height != photo.height))) {
     throw core::Error("photo, mat and hull differ in size", "segmentation on the mat");
   }
-  const cv::Mat grown = GrownHull(hull), inner = InnerHull(hull);
+  const cv::Mat grown = GrownHull(hull);
   cv::Mat labels(photo.height, photo.width, CV_8U);
   bool any_object = false, any_background = false;
   for (int y = 0; y < photo.height; ++y) {
@@ -98,11 +87,7 @@ core::FloatImage SegmentOnMat(const core::Image& photo, const MatEvidence& evide
       std::uint8_t label = cv::GC_PR_BGD;
       const float difference = *evidence.difference.At(x, y);
       if (difference >= 0.0f) {
-        const float pattern = *evidence.pattern.At(x, y);
-        label = LabelOnMat(difference, pattern);
-        // Pixels inside the other views' hull that do not look like the mat are object.
-        const bool expected = !inner.empty() && inner.at<std::uint8_t>(y, x) != 0;
-        if (expected && difference > kSureObject && pattern < kRecognisedMat) label = cv::GC_FGD;
+        label = LabelOnMat(difference, *evidence.pattern.At(x, y));
       } else if (!hull.empty() && *hull.At(x, y) >= 0.5f) {
         label = cv::GC_PR_FGD;
       }
