@@ -14,8 +14,7 @@ namespace simwright::capture {
 namespace {
 
 constexpr double kHeightOverPage = 1.3;   // the tallest object, in heights of the page
-constexpr int kPlaceCells = 56;           // of the page, in which the object is looked for
-constexpr int kFirstCells = 96;           // of the first round's hull
+constexpr int kFirstCells = 72;           // of the first round's hull
 constexpr double kGuessTolerated = 0.65;  // ... and beside the mat
 constexpr double kFirstTolerated = 0.15;  // share of the views whose first masks may be wrong
 
@@ -29,9 +28,8 @@ class MatCapture {
     const Eigen::AlignedBox3d place = ObjectPlace();
     CutOut(place, options_.first_side, {});
     // Beside the mat, first masks are no more than a guess by colour.
-    const std::vector<HullVote> votes = {Vote(kFirstTolerated, true), Vote(kGuessTolerated, false)};
-    const Eigen::AlignedBox3d near = PlaceOf(votes, place, kPlaceCells);
-    result_.hull = Hull(votes, near.isEmpty() ? place : near, kFirstCells);
+    result_.hull =
+        Hull({Vote(kFirstTolerated, true), Vote(kGuessTolerated, false)}, place, kFirstCells);
     const Eigen::AlignedBox3d box = Grown(core::Bounds(result_.hull));
     CutOut(box, options_.crop_side, result_.hull);
     result_.hull = Hull({Vote(options_.tolerated_views, false)}, box, options_.hull_cells);

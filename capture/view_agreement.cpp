@@ -13,12 +13,6 @@ namespace {
 
 constexpr double kLeastAgreement = 0.75;  // IoU of a view's mask and the hull's silhouette
 
-bool HasEnoughViews(const std::vector<HullVote>& votes) {
-  return std::all_of(votes.begin(), votes.end(), [](const HullVote& vote) {
-    return static_cast<int>(vote.views.size()) > vote.tolerated + 1;
-  });
-}
-
 }  // namespace
 
 double MaskIou(const core::FloatImage& a, const core::FloatImage& b) {
@@ -51,26 +45,11 @@ HullVote VoteOf(const std::vector<CaptureView>& views, double tolerated,
 
 core::TriangleMesh HullOf(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
                           int cells) {
-  if (!HasEnoughViews(votes)) return {};
+  const bool enough = std::all_of(votes.begin(), votes.end(), [](const HullVote& vote) {
+    return static_cast<int>(vote.views.size()) > vote.tolerated + 1;
+  });
+  if (!enough) return {};
   return VotingHull(votes, box, {cells, 0.0});
-}
-
-Eigen::AlignedBox3d PlaceOf(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
-                            int cells) {
-  Eigen::AlignedBox3d place;
-  if (!HasEnoughViews(votes)) return place;
-  const geometry::ScalarGrid field = VotingHullField(votes, box, {cells, 0.0});
-  for (int k = 0; k < field.nz; ++k) {
-    for (int j = 0; j < field.ny; ++j) {
-      for (int i = 0; i < field.nx; ++i) {
-        if (field.values[field.Index(i, j, k)] > 0.9f * static_cast<float>(field.cell)) continue;
-        const Eigen::Vector3d node = field.origin + field.cell * Eigen::Vector3d(i, j, k);
-        place.extend(Eigen::Vector3d(node.array() - field.cell));
-        place.extend(Eigen::Vector3d(node.array() + field.cell));
-      }
-    }
-  }
-  return place.isEmpty() ? place : place.intersection(box);
 }
 
 Eigen::AlignedBox3d Grown(Eigen::AlignedBox3d box) {

@@ -20,11 +20,6 @@ HullVote VoteOf(const std::vector<CaptureView>& views, double tolerated,
 core::TriangleMesh HullOf(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
                           int cells);
 
-// Returns the part of a box (m) in which the hull of the votes can lie, found on a grid of `cells`
-// along its longest side: parts thinner than a cell are in it too. Empty if there is none.
-Eigen::AlignedBox3d PlaceOf(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
-                            int cells);
-
 // Returns the intersection of two masks over their union.
 double MaskIou(const core::FloatImage& a, const core::FloatImage& b);
 
