@@ -75,13 +75,6 @@ void MatCapture::Calibrate() {
                                   "photograph most of the mat, sharp and evenly lit"});
       continue;
     }
-    if (!DeterminesCamera(*mats[static_cast<std::size_t>(i)])) {
-      result_.findings.push_back({"mat-hidden", core::Severity::kWarning, photo.name,
-                                  "too little of the mat is recognised to find the camera: the "
-                                  "photo is left out",
-                                  0.0, "photograph most of the mat, sharp and evenly lit"});
-      continue;
-    }
     input.photos.push_back({*mats[static_cast<std::size_t>(i)], photo.focal_35mm, photo.name});
     shown_.push_back(i);
   }

@@ -64,12 +64,11 @@ asset_lift::LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOpti
                                          options.fit_side));
   }
   if (views.empty()) throw core::Error("no view has a mask", "capture");
-  const StartShape start = MakeStartShape(capture, options.start, progress);
   asset_lift::ShapeFitOptions stages = options.fit;
   stages.field.seed = stages.mesh.seed = options.seed;
   stages.mesh.max_side = options.fit_side;
   const asset_lift::ShapeFit fit = asset_lift::FitShape(
-      views, asset_lift::InitialShapeFrom(start.mesh), nullptr, nullptr, stages, progress);
+      views, asset_lift::InitialShapeFrom(capture.hull), nullptr, nullptr, stages, progress);
   lifted.findings.insert(lifted.findings.end(), fit.findings.begin(), fit.findings.end());
   progress->Stage("texture");
   texture::PhotoProjectionOptions projection;

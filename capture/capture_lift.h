@@ -3,15 +3,13 @@
 #include "asset_lift/lift.h"
 #include "asset_lift/mesh_fit/shape_fit_options.h"
 #include "capture/capture.h"
-#include "capture/start_shape.h"
 #include "core/progress.h"
 
 namespace simwright::capture {
 
 struct CaptureLiftOptions {
   asset_lift::ShapeFitOptions fit;
-  int fit_side = 320;  // pixels of the longer side of the views that the mesh is fitted to
-  StartShapeOptions start;
+  int fit_side = 320;       // pixels of the longer side of the views that the mesh is fitted to
   int texture_size = 2048;  // pixels per side
   std::uint64_t seed = 1;
 

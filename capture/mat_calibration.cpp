@@ -175,20 +175,14 @@ void LensGroup::StartPoses() {
   const cv::Vec<double, 5> distortion(lens_[kK1], lens_[kK2], lens_[kP1], lens_[kP2], lens_[kK3]);
   poses_.assign(photos_.size(), {});
   for (std::size_t i = 0; i < photos_.size(); ++i) {
-    const auto points = ObjectPoints(Mat(i), input_->print_scale);
-    const auto pixels = ImagePoints(Mat(i));
     // The mat is a plane: of the two poses that explain it, OpenCV returns the better one first.
     std::vector<cv::Vec3d> rotations, translations;
-    cv::solvePnPGeneric(points, pixels, matrix, distortion, rotations, translations, false,
-                        cv::SOLVEPNP_IPPE);
-    std::size_t best = 0;
-    while (best < translations.size() && !(translations[best][2] > 0.0)) ++best;
-    cv::Vec3d rotation, translation;
-    if (best < translations.size()) {
-      rotation = rotations[best];
-      translation = translations[best];
-    } else if (!cv::solvePnP(points, pixels, matrix, distortion, rotation, translation) ||
-               !(translation[2] > 0.0)) {
+    const int found =
+        cv::solvePnPGeneric(ObjectPoints(Mat(i), input_->print_scale), ImagePoints(Mat(i)), matrix,
+                            distortion, rotations, translations, false, cv::SOLVEPNP_IPPE);
+    const cv::Vec3d rotation = found > 0 ? rotations[0] : cv::Vec3d();
+    const cv::Vec3d translation = found > 0 ? translations[0] : cv::Vec3d();
+    if (!(translation[2] > 0.0)) {
       throw core::Error("the mat's corners do not give a camera",
                         input_->photos[static_cast<std::size_t>(photos_[i])].name,
                         "leave the photo out");
@@ -372,27 +366,6 @@ void MatCalibrationInput::Validate() const {
     }
     for (const int corner : mat.corners) CaptureMatOf(mat.paper).Corner(corner);
   }
-}
-
-bool DeterminesCamera(const MatObservation& mat) {
-  constexpr double kPlanePixels = 0.01;  // of the longer side: the lens bends the plane
-  constexpr double kLeastInliers = 0.8;
-  const auto points = ObjectPoints(mat, 1.0);
-  std::vector<cv::Point2f> plane;
-  // The mat's y points up and the photo's down.
-  for (const cv::Point3f& point : points) plane.emplace_back(point.x, -point.y);
-  std::vector<std::uint8_t> inside;
-  const cv::Mat found = cv::findHomography(plane, ImagePoints(mat), cv::RANSAC,
-                                           kPlanePixels * std::max(mat.width, mat.height), inside);
-  if (found.empty()) return false;
-  cv::Matx33d h = found;
-  const auto depth = [&](const cv::Point2f& p) { return h(2, 0) * p.x + h(2, 1) * p.y + h(2, 2); };
-  if (depth(plane[0]) < 0.0) h = -1.0 * h;
-  const bool in_front =
-      std::all_of(plane.begin(), plane.end(), [&](const cv::Point2f& p) { return depth(p) > 0.0; });
-  const auto inliers = std::count(inside.begin(), inside.end(), 1);
-  return in_front && cv::determinant(h) > 0.0 &&
-         static_cast<double>(inliers) >= kLeastInliers * static_cast<double>(plane.size());
 }
 
 MatCalibration CalibrateOnMat(const MatCalibrationInput& input) {

@@ -38,10 +38,6 @@ struct MatCalibration {
   core::Findings findings;
 };
 
-// Returns whether the corners are those of a plane seen from in front, so that they give a camera:
-// a few wrong markers on a mat that is mostly hidden do not.
-bool DeterminesCamera(const MatObservation& mat);
-
 // Fits the intrinsics, the lens distortion and the camera poses to the mat's corners: bundle
 // adjustment of the reprojection errors with a Huber loss of one pixel (Ceres). The mat's points
 // are known, so they fix the gauge and the metric scale. The focal length starts from EXIF where it

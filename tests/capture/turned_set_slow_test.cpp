@@ -77,9 +77,8 @@ void ExpectPose(const TurnedPose& found, const Eigen::Isometry3d& second_from_fi
       "rotation %.2f degrees, translation %.2f %%, outlines %.3f, colours %.3f, rival %.3f\n",
       degrees, percent, found.agreement, found.color_difference,
       found.rival_difference.value_or(-1.0));
-  // Twelve photos of 900 pixels a set: the outlines are known to a pixel, some 0.6 mm.
-  EXPECT_LT(degrees, 2.0);
-  EXPECT_LT(percent, 1.0);
+  EXPECT_LT(degrees, 1.0);
+  EXPECT_LT(percent, 0.5);
   EXPECT_EQ(found.doubt, "");
 }
 
