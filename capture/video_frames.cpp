@@ -261,9 +261,14 @@ bool NamesVideo(const std::filesystem::path& path) {
 
 VideoChoice ChooseVideoFrames(const std::filesystem::path& path, const VideoFrameOptions& options,
                               core::Progress* progress) {
+  if (options.frames < 1 || options.least_frames < 1 || options.scored_frames < 1 ||
+      !(options.least_motion > 0.0)) {
+    throw core::Error("the numbers of frames and the least motion must be positive");
+  }
   const std::string name = path.string();
   VideoStream video(path);
   VideoChoice choice;
+  choice.stated_count = video.StatedCount();
   const std::vector<ScoredFrame> scored =
       ScoreFrames(&video, path.filename().string(), options.scored_frames, &choice.count, progress);
   if (scored.empty()) throw core::Error("the video holds no frames", name, "film it again");

@@ -26,7 +26,8 @@ struct VideoFrame {
 
 struct VideoChoice {
   std::vector<VideoFrame> frames;  // in order
-  int count = 0;                   // the frames of the video
+  int count = 0;                   // the frames of the video that can be read
+  int stated_count = 0;            // that the file states, often an estimate; 0: unknown
   double motion = 0.0;             // the way of the picture's content, in sides of the picture
 };
 
@@ -36,8 +37,8 @@ bool NamesVideo(const std::filesystem::path& path);
 // Chooses frames of a video that serve as photos of a scene: its way is cut into `frames` parts of
 // equal motion, so that a camera that stands still gives few, and the sharpest frame of each part
 // is taken. A part without a sharp frame gives none. Holds two frames at a time. Throws core::Error
-// if the file is not a video that can be read, or has too few frames or hardly any motion;
-// core::Cancelled.
+// for options that ask for no frames, and if the file is not a video that can be read, or has too
+// few frames or hardly any motion; core::Cancelled.
 VideoChoice ChooseVideoFrames(const std::filesystem::path& path, const VideoFrameOptions& options,
                               core::Progress* progress);
 

@@ -130,7 +130,8 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command
       ->add_option("--shape-channels", flags->request.shape_options.shape_channels,
-                   "Channels of the shape prior's levels, separated by commas: multiples of 8")
+                   "Channels of the shape prior's levels, separated by commas: up to six multiples "
+                   "of 8")
       ->delimiter(',')
       ->default_str("48,96,192,256");
   command->add_option("-o,--output", flags->request.output, "The folder for the weights")

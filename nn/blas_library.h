@@ -4,8 +4,8 @@
 
 namespace simwright::nn {
 
-// Returns the path of the library that serves the matrix products of this program, libtorch's among
-// them; empty where the program has none.
+// Returns the path, without links, of the library that serves the matrix products of this program,
+// libtorch's among them; empty where libtorch has its own.
 std::string BlasLibrary();
 
 }  // namespace simwright::nn

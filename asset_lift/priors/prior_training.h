@@ -29,8 +29,8 @@ struct PriorTrainingOptions {
   double parametric_share = 0.4;
   TrainingMeshSampler sampler;
   double sampler_share = 0.25;
-  // The channels of the shape network's levels, each at half the resolution of the one before:
-  // multiples of 8. The weights' file keeps them.
+  // The channels of the shape network's levels, each at half the resolution of the one before: one
+  // to six multiples of 8. The weights' file keeps them.
   std::vector<int> shape_channels = {48, 96, 192, 256};
   std::uint64_t seed = 1;
   // The file of initial weights of the same network; empty: random initialization.

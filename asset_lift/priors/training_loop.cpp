@@ -65,10 +65,11 @@ bool PriorTrainingOptions::IsValid(std::string* error) const {
   if (sampler && !(sampler_share >= 0.0 && parametric_share + sampler_share <= 1.0)) {
     return fail("sampler_share and parametric_share must be at least 0 and sum to at most 1");
   }
-  if (shape_channels.empty() ||
-      std::any_of(shape_channels.begin(), shape_channels.end(),
-                  [](int channels) { return channels < 8 || channels % 8 != 0; })) {
-    return fail("shape_channels must be positive multiples of 8, one per level");
+  if (shape_channels.empty() || shape_channels.size() > 6 ||
+      std::any_of(shape_channels.begin(), shape_channels.end(), [](int channels) {
+        return channels < 8 || channels > 4096 || channels % 8 != 0;
+      })) {
+    return fail("shape_channels must be one to six multiples of 8, at most 4096");
   }
   return true;
 }

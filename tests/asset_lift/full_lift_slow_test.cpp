@@ -2,13 +2,17 @@
 // with them.
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "asset_lift/lift.h"
 #include "asset_lift/priors/learned_view_prior.h"
 #include "asset_lift/priors/prior_training.h"
 #include "asset_lift/priors/shape_prior.h"
+#include "asset_lift/priors/training_shapes.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "geometry/mesh_validity.h"
+#include "nn/checkpoint.h"
 #include "render/forward.h"
 
 namespace simwright::asset_lift {
@@ -91,6 +95,34 @@ TEST_F(FullLift, TrainingReportsAndLeavesWeightsOnly) {
   EXPECT_EQ(view_report_.step, 4);
   EXPECT_TRUE(std::filesystem::exists(Weights("view.pt")));
   EXPECT_FALSE(std::filesystem::exists(Weights("view.pt.state")));
+}
+
+// The weights' file keeps the network's size, and the sampler's meshes are trained on.
+TEST_F(FullLift, TrainsAnotherSizeOnTheMeshesOfASampler) {
+  PriorTrainingOptions options;
+  options.trainer.steps = 2;
+  options.trainer.save_every = 2;
+  options.batch = 2;
+  options.pool = 2;
+  options.parametric_share = 0.0;
+  options.sampler_share = 1.0;
+  options.shape_channels = {16, 32};
+  std::atomic<int> sampled = 0;
+  options.sampler = [&](core::Rng* rng) {
+    ++sampled;
+    return MakeTrainingShape(rng);
+  };
+  core::Progress silent;
+  TrainShapeNetwork({}, options, Weights("small.pt"), &silent);
+  EXPECT_GE(sampled, 3);  // the pool, and an exchange
+  EXPECT_EQ(nn::ReadCheckpointMetadata(Weights("small.pt"), "shape").at("channels"), "16,32");
+  EXPECT_NO_THROW(ShapePrior(Weights("small.pt")));
+  EXPECT_LT(std::filesystem::file_size(Weights("small.pt")),
+            std::filesystem::file_size(Weights("shape.pt")) / 4);
+  options.shape_channels = {16, 20};
+  EXPECT_FALSE(options.IsValid(nullptr));
+  options.shape_channels.assign(7, 16);
+  EXPECT_FALSE(options.IsValid(nullptr));
 }
 
 TEST_F(FullLift, BothStagesGiveASolidThatShowsThePhoto) {

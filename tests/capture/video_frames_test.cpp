@@ -79,24 +79,33 @@ std::string RefusalOf(const fs::path& path) {
   return "accepted";
 }
 
-TEST(VideoFrames, TakesSharpFramesOfEachPartOfTheWay) {
-  const core::TemporaryFolder folder;
-  const fs::path path = folder.path() / "pan.avi";
-  const std::vector<VideoShot> shots = PanStandPan();
-  WriteAvi(path, shots);
-  core::Progress silent;
-  const VideoChoice choice = ChooseVideoFrames(path, {}, &silent);
-  EXPECT_EQ(choice.count, 400);
-  EXPECT_NEAR(choice.motion, 200 * 6.0 / kWidth, 0.3);
-  EXPECT_GE(choice.frames.size(), 28u);
-  EXPECT_LE(choice.frames.size(), 30u);
+// The chosen frames of that video.
+class PanVideo : public testing::Test {
+ protected:
+  PanVideo() {
+    WriteAvi(path_, shots_);
+    choice_ = ChooseVideoFrames(path_, {}, &silent_);
+  }
+
+  const core::TemporaryFolder folder_;
+  const fs::path path_ = folder_.path() / "pan.avi";
+  const std::vector<VideoShot> shots_ = PanStandPan();
+  core::Progress silent_;
+  VideoChoice choice_;
+};
+
+TEST_F(PanVideo, TakesSharpFramesOfEachPartOfTheWay) {
+  EXPECT_EQ(choice_.count, 400);
+  EXPECT_NEAR(choice_.motion, 200 * 6.0 / kWidth, 0.3);
+  EXPECT_GE(choice_.frames.size(), 28u);
+  EXPECT_LE(choice_.frames.size(), 30u);
   int standing = 0, before = -1;
   double last_offset = -1.0;
-  for (const VideoFrame& frame : choice.frames) {
+  for (const VideoFrame& frame : choice_.frames) {
     EXPECT_GT(frame.index, before);
     before = frame.index;
     EXPECT_NEAR(frame.seconds, frame.index / kRate, 1e-3);
-    const VideoShot& shot = shots[static_cast<std::size_t>(frame.index)];
+    const VideoShot& shot = shots_[static_cast<std::size_t>(frame.index)];
     EXPECT_FALSE(shot.blurred) << frame.index;
     EXPECT_GT(frame.sharpness, 0.7);
     standing += frame.index >= 100 && frame.index < 300;
@@ -109,22 +118,16 @@ TEST(VideoFrames, TakesSharpFramesOfEachPartOfTheWay) {
   EXPECT_LE(standing, 2);
 }
 
-TEST(VideoFrames, ReadsTheFramesThatItChose) {
-  const core::TemporaryFolder folder;
-  const fs::path path = folder.path() / "pan.avi";
-  const std::vector<VideoShot> shots = PanStandPan();
-  WriteAvi(path, shots);
-  core::Progress silent;
-  const VideoChoice choice = ChooseVideoFrames(path, {}, &silent);
+TEST_F(PanVideo, ReadsTheFramesThatItChose) {
   const cv::Mat wall = BlotchyWall();
   std::size_t read = 0;
   const auto take = [&](const VideoFrame& frame, core::Image picture) {
-    EXPECT_EQ(frame.index, choice.frames[read++].index);
+    EXPECT_EQ(frame.index, choice_.frames[read++].index);
     ASSERT_EQ(picture.width, kWidth);
     ASSERT_EQ(picture.height, kHeight);
     // The wall at the frame's offset, in RGB.
     double difference = 0.0;
-    const int left = static_cast<int>(shots[static_cast<std::size_t>(frame.index)].offset);
+    const int left = static_cast<int>(shots_[static_cast<std::size_t>(frame.index)].offset);
     for (int x = 10; x < kWidth - 10; ++x) {
       for (int c = 0; c < 3; ++c) {
         difference += std::abs(picture.At(x, 100)[c] - wall.at<cv::Vec3b>(100, left + x)[2 - c]);
@@ -132,8 +135,28 @@ TEST(VideoFrames, ReadsTheFramesThatItChose) {
     }
     EXPECT_LT(difference / (3 * (kWidth - 20)), 12.0) << frame.index;
   };
-  ReadVideoFrames(path, choice.frames, take, &silent);
-  EXPECT_EQ(read, choice.frames.size());
+  ReadVideoFrames(path_, choice_.frames, take, &silent_);
+  EXPECT_EQ(read, choice_.frames.size());
+}
+
+// The file still states all frames: a caller can tell that some are missing.
+TEST_F(PanVideo, ACutFileStatesMoreFramesThanItHolds) {
+  const std::string bytes = core::ReadFile(path_);
+  const fs::path cut = folder_.path() / "cut.avi";
+  core::WriteFile(cut, bytes.substr(0, bytes.size() * 7 / 10));
+  const VideoChoice choice = ChooseVideoFrames(cut, {}, &silent_);
+  EXPECT_EQ(choice_.stated_count, 400);
+  EXPECT_EQ(choice_.count, 400);
+  EXPECT_EQ(choice.stated_count, 400);
+  EXPECT_LT(choice.count, 380);
+  EXPECT_GT(choice.count, 100);
+}
+
+TEST(VideoFrames, RefusesOptionsThatAskForNoFrames) {
+  core::Progress silent;
+  VideoFrameOptions options;
+  options.frames = 0;
+  EXPECT_THROW(ChooseVideoFrames("pan.avi", options, &silent), core::Error);
 }
 
 TEST(VideoFrames, ScoresFewFramesOfALongVideo) {

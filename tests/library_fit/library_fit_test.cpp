@@ -274,6 +274,19 @@ TEST(LibraryFit, AnArticulatedFitShowsThePhoto) {
   EXPECT_LT(from(behind), 0.0005);
 }
 
+TEST(LibraryFit, EveryArticulatedKindTakesThePhoto) {
+  for (size_t kind = 0; kind < FitKinds().size(); ++kind) {
+    if (FitKinds()[kind].articulated == nullptr) continue;
+    FittedInstance fit;
+    fit.instance = SampleInstance(static_cast<int>(kind), kTestSeed);
+    fit.view = FrontView();
+    const Shown shown = Show(fit.instance, FrontView());
+    const assets::ArticulatedAsset asset =
+        FittedAsset(fit, FitPhotoOf(shown.photo, shown.alpha), 0.3);
+    EXPECT_EQ(assets::VisualAtPositions(asset).textures.size(), 1u) << FitKinds()[kind].name;
+  }
+}
+
 TEST(LibraryFit, RefusesBadInput) {
   const core::Image photo(40, 40, 3), empty(40, 40, 1), other(20, 40, 1, 255);
   EXPECT_THROW(FitPhotoOf(photo, empty), core::Error);

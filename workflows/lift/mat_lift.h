@@ -32,12 +32,12 @@ struct MatLiftRequest {
 // them show one. Photos that cannot be read count as showing none.
 bool ShowMat(const std::vector<std::filesystem::path>& photos);
 
-// Reconstructs an asset folder from photos on a mat, and those of the flipped object where their
-// pose can be trusted (the finding "flipped" gives the agreement in numbers, "flipped-left-out" the
-// reason), and writes beside the asset matte.png and
-// lift.png (of the first photo) and the files of WriteCaptureReport. Throws
-// core::Error if a photo cannot be read, the category is unknown, fewer than four photos show the
-// mat, nothing stands on it, or the output exists; core::Cancelled.
+// Reconstructs an asset folder from photos on a mat, and from those of the flipped object where
+// their pose can be trusted: the finding "flipped" gives the agreement in numbers,
+// "flipped-left-out" the reason. Writes beside the asset matte.png and lift.png (of the first
+// photo) and the files of WriteCaptureReport. Throws core::Error if a photo cannot be read, the
+// category is unknown, fewer than four photos show the mat, nothing stands on it, or the output
+// exists; core::Cancelled.
 LiftOutcome LiftToFolder(const MatLiftRequest& request, core::Progress* progress);
 
 }  // namespace simwright::workflows

@@ -11,6 +11,8 @@ namespace simwright::workflows {
 namespace {
 
 constexpr int kFrameJpegQuality = 95;
+// A video of which less can be read, of the frames that its file states, was cut short.
+constexpr double kWholeShare = 0.95;
 
 std::string FixedPoint(double value, int digits) {
   char text[32];
@@ -52,11 +54,15 @@ VideoPhotos::VideoPhotos(const std::filesystem::path& video, int count, core::Pr
       std::min_element(choice.frames.begin(), choice.frames.end(),
                        [](const auto& a, const auto& b) { return a.sharpness < b.sharpness; })
           ->sharpness;
-  finding_ = {"video-frames", core::Severity::kInfo, name_,
+  const bool cut_short = choice.count < kWholeShare * choice.stated_count;
+  finding_ = {"video-frames", cut_short ? core::Severity::kWarning : core::Severity::kInfo, name_,
               std::to_string(photos_.size()) + " of " + std::to_string(choice.count) +
                   " frames are used, from " + labels.front() + " to " + labels.back() +
                   "; their sharpness is at least " + FixedPoint(sharpness, 2) +
-                  " of the median of the video",
+                  " of the median of the video" +
+                  (cut_short ? "; the file states " + std::to_string(choice.stated_count) +
+                                   " frames, and the rest cannot be read"
+                             : ""),
               sharpness};
 }
 
