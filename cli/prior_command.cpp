@@ -18,9 +18,9 @@ struct PriorFlags {
   workflows::PriorTrainingRequest request;
   bool parametric_only = false;
   bool resume = false;
-  int batch = 0, pool = 0;  // 0: the defaults
-  double rate = 0.0;        // 0: the defaults
-  double library_share = 0.25;
+  int batch = 0, pool = 0, exchange = -1;  // 0 and -1: the defaults
+  double rate = 0.0;                       // 0: the defaults
+  double library_share = 0.25, parametric_share = 0.4;
   std::string from;
   std::string only;
 };
@@ -69,8 +69,10 @@ int TrainPriors(PriorFlags flags, const CommonOptions& common) {
     options->seed = common.seed;
     options->trainer.resume = flags.resume;
     options->sampler_share = flags.library_share;
+    options->parametric_share = flags.parametric_share;
     if (flags.batch > 0) options->batch = flags.batch;
     if (flags.pool > 0) options->pool = flags.pool;
+    if (flags.exchange >= 0) options->exchange = flags.exchange;
     if (flags.rate > 0.0) options->trainer.learning_rate = flags.rate;
   }
   library_fit::LibraryTrainingOptions& library = flags.request.library_options;
@@ -129,6 +131,11 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->check(CLI::Range(0.0, 0.6))
       ->capture_default_str();
   command
+      ->add_option("--parametric-share", flags->parametric_share,
+                   "Share of parametric shapes; the rest are models of the catalogues")
+      ->check(CLI::Range(0.0, 0.4))
+      ->capture_default_str();
+  command
       ->add_option("--shape-channels", flags->request.shape_options.shape_channels,
                    "Channels of the shape prior's levels, separated by commas: up to six multiples "
                    "of 8")
@@ -162,6 +169,32 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("--pool", flags->pool, "Number of objects in the pool")
       ->check(Positive())
       ->default_str("160");
+  command
+      ->add_option("--exchange", flags->exchange,
+                   "Objects of the pool that each step replaces by new ones")
+      ->check(CLI::NonNegativeNumber)
+      ->default_str("1");
+  command
+      ->add_option("--fresh", flags->request.shape_options.fresh,
+                   "Photos per step of the shape prior that are newly rendered; 0: all. A GPU "
+                   "learns faster than processors render")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--memory", flags->request.shape_options.memory,
+                   "Photos kept for later steps, from which --fresh draws (300 KB each)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--library-batch", flags->request.library_options.batch,
+                   "Pictures per step of the library prior")
+      ->check(Positive())
+      ->capture_default_str();
+  command
+      ->add_option("--library-exchange", flags->request.library_options.exchange,
+                   "Pictures of the library prior that each step replaces by new ones")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->add_option("--rate", flags->rate, "Learning rate")
       ->check(Positive())
       ->default_str("8e-4 shape, 1e-3 view");

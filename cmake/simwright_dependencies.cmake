@@ -17,6 +17,26 @@ macro(simwright_require_mujoco)
   endif()
 endmacro()
 
+# SIMWRIGHT_TORCH_ROOT: the folder of another libtorch, with include/ and lib/, such as that of a
+# Python package with CUDA. Its own CMake config is not read, since that needs the CUDA toolkit. The
+# library of CUDA registers itself when it is loaded: nothing names it, so the linker must keep it.
+set(SIMWRIGHT_TORCH_ROOT "" CACHE PATH "Folder of a libtorch to use in place of Debian's")
+macro(simwright_require_torch_of root)
+  if(NOT TARGET simwright_torch)
+    file(GLOB simwright_torch_cuda ${root}/lib/libtorch_cuda.so)
+    set(simwright_torch_kept ${root}/lib/libtorch_cpu.so ${simwright_torch_cuda})
+    list(JOIN simwright_torch_kept "," simwright_torch_kept)
+    add_library(simwright_torch INTERFACE IMPORTED)
+    target_include_directories(simwright_torch SYSTEM INTERFACE
+      ${root}/include ${root}/include/torch/csrc/api/include)
+    target_link_options(simwright_torch INTERFACE
+      "LINKER:--no-as-needed,${simwright_torch_kept},--as-needed" LINKER:--allow-shlib-undefined
+      LINKER:-rpath,${root}/lib)
+    target_link_libraries(simwright_torch INTERFACE
+      ${root}/lib/libtorch_cpu.so ${root}/lib/libc10.so)
+  endif()
+endmacro()
+
 # Debian's Torch config provides the headers and libraries as variables; they become one target.
 macro(simwright_require_torch)
   find_package(Torch REQUIRED)
@@ -75,6 +95,8 @@ macro(simwright_require link)
     find_package(CURL REQUIRED)
   elseif("${link}" STREQUAL "GIF::GIF")
     find_package(GIF REQUIRED)
+  elseif("${link}" STREQUAL "simwright_torch" AND SIMWRIGHT_TORCH_ROOT)
+    simwright_require_torch_of("${SIMWRIGHT_TORCH_ROOT}")
   elseif("${link}" STREQUAL "simwright_torch")
     simwright_require_torch()
   elseif("${link}" STREQUAL "simwright_spdlog")

@@ -1,31 +1,62 @@
 #include "library_fit/library_network.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
+#include "core/error.h"
+
 namespace simwright::library_fit {
 namespace {
 
-constexpr int kChannels[] = {32, 64, 128, 192};
-constexpr int kFeatures = 320;
 constexpr int kEmbedding = 96;
 constexpr int kHidden = 384;
 constexpr int kNumbers = 10;
 
 }  // namespace
 
-LibraryNetworkImpl::LibraryNetworkImpl(int kinds) {
+nn::CheckpointMetadata LibraryNetworkOptions::Metadata() const {
+  std::string list;
+  for (const int count : channels) list += (list.empty() ? "" : ",") + std::to_string(count);
+  return {{"channels", list}, {"features", std::to_string(features)}};
+}
+
+LibraryNetworkOptions LibraryNetworkOptions::Of(const std::filesystem::path& weights) {
+  const nn::CheckpointMetadata metadata = nn::ReadCheckpointMetadata(weights, "library");
+  const auto list = metadata.find("channels"), features = metadata.find("features");
+  const auto valid = [](int count) { return count >= 8 && count <= 4096 && count % 8 == 0; };
+  LibraryNetworkOptions options;
+  options.channels.clear();
+  if (list != metadata.end() && features != metadata.end()) {
+    std::istringstream counts(list->second);
+    for (std::string count; std::getline(counts, count, ',');) {
+      options.channels.push_back(std::atoi(count.c_str()));
+    }
+    options.features = std::atoi(features->second.c_str());
+  }
+  if (options.channels.size() != 4 || !valid(options.features) ||
+      !std::all_of(options.channels.begin(), options.channels.end(), valid)) {
+    throw core::Error("the weights name no valid sizes of the network", weights.string(),
+                      "train them again: simwright prior train --only library");
+  }
+  return options;
+}
+
+LibraryNetworkImpl::LibraryNetworkImpl(int kinds, const LibraryNetworkOptions& options) {
   namespace tn = torch::nn;
-  stem_ = register_module("stem",
-                          tn::Conv2d(tn::Conv2dOptions(4, kChannels[0], 5).stride(2).padding(2)));
+  int before = options.channels.front();
+  stem_ = register_module("stem", tn::Conv2d(tn::Conv2dOptions(4, before, 5).stride(2).padding(2)));
   blocks_ = register_module("blocks", tn::ModuleList());
-  int before = kChannels[0];
-  for (const int channels : kChannels) {
+  for (const int channels : options.channels) {
     blocks_->push_back(nn::ResidualBlock(before, channels, 0));
     before = channels;
   }
   norm_ = register_module("norm", tn::GroupNorm(tn::GroupNormOptions(8, before)));
-  feature_ = register_module("feature", tn::Linear(before * 16, kFeatures));
-  kind_ = register_module("kind", tn::Linear(kFeatures, kinds));
+  feature_ = register_module("feature", tn::Linear(before * 16, options.features));
+  kind_ = register_module("kind", tn::Linear(options.features, kinds));
   embedding_ = register_module("embedding", tn::Embedding(kinds, kEmbedding));
-  hidden_ = register_module("hidden", tn::Linear(kFeatures + kEmbedding, 2 * kHidden));
+  hidden_ = register_module("hidden", tn::Linear(options.features + kEmbedding, 2 * kHidden));
   const int outputs = kAzimuthBins + (kPriorDraws + 1) * kChoiceBins + kNumbers;
   parameters_ = register_module("parameters", tn::Linear(kHidden + kEmbedding, outputs));
 }

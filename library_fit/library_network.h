@@ -1,7 +1,11 @@
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
 #include "library_fit/prior_example.h"
 #include "nn/blocks.h"
+#include "nn/checkpoint.h"
 #include "nn/torch.h"
 
 namespace simwright::library_fit {
@@ -18,11 +22,21 @@ struct LibraryNetworkOutput {
   torch::Tensor numbers;
 };
 
+// The sizes of the network, which its weights' file keeps.
+struct LibraryNetworkOptions {
+  std::vector<int> channels = {48, 96, 192, 256};  // of the levels, each at half the resolution
+  int features = 512;                              // of the picture
+
+  nn::CheckpointMetadata Metadata() const;
+  // Reads the sizes from the file `weights`. Throws core::Error for a file without valid ones.
+  static LibraryNetworkOptions Of(const std::filesystem::path& weights);
+};
+
 // Predicts which kind of the library a crop shows, and the parameters of the instance given its
 // kind: a residual network whose features meet an embedding of the kind in two dense layers.
 class LibraryNetworkImpl : public torch::nn::Module {
  public:
-  explicit LibraryNetworkImpl(int kinds);
+  explicit LibraryNetworkImpl(int kinds, const LibraryNetworkOptions& options = {});
 
   // `pictures` (B x 4 x kPriorSide x kPriorSide): RGB in [-1, 1] times alpha, and alpha. Returns
   // (B x F) features.

@@ -41,6 +41,14 @@ double Laplace(double mean, double error, core::Rng* rng) {
 
 struct LibraryPrior::Network {
   LibraryNetwork net{nullptr};
+
+  // Returns the probability of each kind: the mean of the answers for the picture (1 x 4 x S x S)
+  // and its mirror image, since a mirrored object is of the same kind.
+  std::vector<double> KindsOf(const torch::Tensor& picture) {
+    const torch::Tensor both = torch::cat({picture, picture.flip(3)});
+    const torch::Tensor logits = net->KindLogits(net->Features(both));
+    return VectorOf(torch::softmax(logits, 1).mean(0));
+  }
 };
 
 std::pair<Instance, FitView> LikeliestInstance(const KindPrediction& prediction) {
@@ -89,7 +97,8 @@ LibraryPrior::LibraryPrior(const std::filesystem::path& weights)
     throw core::Error("the library prior was trained for another list of kinds", weights.string(),
                       "train it again: simwright prior train --only library");
   }
-  network_->net = LibraryNetwork(static_cast<int>(FitKinds().size()));
+  network_->net =
+      LibraryNetwork(static_cast<int>(FitKinds().size()), LibraryNetworkOptions::Of(weights));
   nn::LoadCheckpoint(weights, "library", network_->net.get());
   network_->net->eval();
 }
@@ -98,15 +107,15 @@ LibraryPrior::~LibraryPrior() = default;
 
 std::vector<double> LibraryPrior::KindProbabilities(const core::Image& crop) const {
   const torch::NoGradGuard no_grad;
-  const torch::Tensor features = network_->net->Features(LibraryPictures(crop.pixels.data(), 1));
-  return VectorOf(torch::softmax(network_->net->KindLogits(features), 1));
+  return network_->KindsOf(LibraryPictures(crop.pixels.data(), 1));
 }
 
 std::vector<KindPrediction> LibraryPrior::Predict(const core::Image& crop,
                                                   const std::vector<int>& kinds) const {
   const torch::NoGradGuard no_grad;
-  const torch::Tensor features = network_->net->Features(LibraryPictures(crop.pixels.data(), 1));
-  const std::vector<double> all = VectorOf(torch::softmax(network_->net->KindLogits(features), 1));
+  const torch::Tensor picture = LibraryPictures(crop.pixels.data(), 1);
+  const torch::Tensor features = network_->net->Features(picture);
+  const std::vector<double> all = network_->KindsOf(picture);
   std::vector<KindPrediction> predictions;
   for (const int kind : kinds) {
     const LibraryNetworkOutput out =

@@ -1,5 +1,6 @@
 #include "library_fit/library_training.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -29,23 +30,25 @@ struct LibraryBatch {
 // pictures an outline that is off by a pixel, with the background's colour where it is too wide.
 torch::Tensor Augmented(const torch::Tensor& pictures) {
   const auto count = pictures.size(0);
+  const torch::TensorOptions like = pictures.options();
   torch::Tensor alpha = pictures.slice(1, 3, 4);
   torch::Tensor color = (pictures.slice(1, 0, 3) / torch::clamp_min(alpha, 1e-3) + 1.0) * 0.5;
-  color = torch::where(alpha > 0.02, color, torch::rand({count, 3, 1, 1}));
-  color =
-      color * (1.0 + 0.15 * torch::randn({count, 1, 1, 1}) + 0.05 * torch::randn({count, 3, 1, 1}));
-  color =
-      torch::where(torch::rand({count, 1, 1, 1}) < 0.3, torch::avg_pool2d(color, 3, 1, 1), color);
-  color = color + 0.03 * torch::rand({count, 1, 1, 1}) * torch::randn_like(color);
+  color = torch::where(alpha > 0.02, color, torch::rand({count, 3, 1, 1}, like));
+  color = color * (1.0 + 0.15 * torch::randn({count, 1, 1, 1}, like) +
+                   0.05 * torch::randn({count, 3, 1, 1}, like));
+  color = torch::where(torch::rand({count, 1, 1, 1}, like) < 0.3, torch::avg_pool2d(color, 3, 1, 1),
+                       color);
+  color = color + 0.03 * torch::rand({count, 1, 1, 1}, like) * torch::randn_like(color);
   const torch::Tensor rough = torch::nn::functional::interpolate(
-      torch::randn({count, 1, 16, 16}), torch::nn::functional::InterpolateFuncOptions()
-                                            .size(std::vector<std::int64_t>{kPriorSide, kPriorSide})
-                                            .mode(torch::kBilinear)
-                                            .align_corners(false));
-  const torch::Tensor strength = 0.3 * torch::rand({count, 1, 1, 1});
+      torch::randn({count, 1, 16, 16}, like),
+      torch::nn::functional::InterpolateFuncOptions()
+          .size(std::vector<std::int64_t>{kPriorSide, kPriorSide})
+          .mode(torch::kBilinear)
+          .align_corners(false));
+  const torch::Tensor strength = 0.3 * torch::rand({count, 1, 1, 1}, like);
   const torch::Tensor moved = torch::clamp(
       (torch::avg_pool2d(alpha, 3, 1, 1) + strength * rough - 0.5) * 4.0 + 0.5, 0.0, 1.0);
-  alpha = torch::where(torch::rand({count, 1, 1, 1}) < 0.4, moved, alpha);
+  alpha = torch::where(torch::rand({count, 1, 1, 1}, like) < 0.4, moved, alpha);
   return torch::cat({(2.0 * torch::clamp(color, 0.0, 1.0) - 1.0) * alpha, alpha}, 1);
 }
 
@@ -191,6 +194,11 @@ bool LibraryTrainingOptions::IsValid(std::string* error) const {
   };
   if (!trainer.IsValid(error)) return false;
   if (batch < 1) return fail("training needs at least one picture per step");
+  if (channels.size() != 4 || features < 8 || features % 8 != 0 ||
+      std::any_of(channels.begin(), channels.end(),
+                  [](int count) { return count < 8 || count > 4096 || count % 8 != 0; })) {
+    return fail("the network needs four channel counts and a feature count, multiples of 8");
+  }
   if (pool < 1 || exchange < 0 || exchange > pool) return fail("the pool is too small");
   return true;
 }
@@ -204,7 +212,10 @@ asset_lift::PriorTrainingReport TrainLibraryNetwork(
   torch::manual_seed(static_cast<std::int64_t>(options.seed));
   const torch::Device device = nn::BestDevice();
   const int kinds = static_cast<int>(FitKinds().size());
-  LibraryNetwork network(kinds), kept(kinds);
+  LibraryNetworkOptions sizes;
+  sizes.channels = options.channels;
+  sizes.features = options.features;
+  LibraryNetwork network(kinds, sizes), kept(kinds, sizes);
   network->to(device);
   nn::Trainer trainer(network.get(), options.trainer, weights.string() + ".state");
   const int first = trainer.first_step(), steps = options.trainer.steps;
@@ -220,11 +231,11 @@ asset_lift::PriorTrainingReport TrainLibraryNetwork(
     LibraryBatch batch =
         BatchOf(pool, options.batch,
                 core::StreamRng(options.seed ^ 0x11bull, static_cast<std::uint64_t>(i)));
-    batch.pictures = Augmented(batch.pictures);
     for (torch::Tensor* t : {&batch.pictures, &batch.kinds, &batch.azimuth, &batch.frontal,
                              &batch.choices, &batch.numbers}) {
       *t = t->to(device);
     }
+    batch.pictures = Augmented(batch.pictures);
     std::vector<LibrarySums> parts(static_cast<size_t>(shares));
     const double loss = trainer.Step(i, shares, [&](int share) {
       const nn::Share part = nn::ShareOf(options.batch, shares, share);
@@ -237,13 +248,13 @@ asset_lift::PriorTrainingReport TrainLibraryNetwork(
     if (trainer.SaveDue(i)) {
       trainer.SaveState(i + 1);
       trainer.CopyAverageTo(kept.get());
-      nn::SaveCheckpoint(*kept,
-                         {{"kind", "library"},
-                          {"kinds", std::to_string(kinds)},
-                          {"step", std::to_string(i + 1)},
-                          {"batch", std::to_string(options.batch)},
-                          {"seed", std::to_string(options.seed)}},
-                         weights);
+      nn::CheckpointMetadata card{{"kind", "library"},
+                                  {"kinds", std::to_string(kinds)},
+                                  {"step", std::to_string(i + 1)},
+                                  {"batch", std::to_string(options.batch)},
+                                  {"seed", std::to_string(options.seed)}};
+      card.merge(sizes.Metadata());
+      nn::SaveCheckpoint(*kept, card, weights);
     }
     progress->Advance();
   }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "asset_lift/priors/prior_training.h"
 #include "core/progress.h"
@@ -15,6 +16,9 @@ struct LibraryTrainingOptions {
   int batch = 64;     // pictures per step
   int pool = 6000;    // pictures kept in memory: 16 KB each
   int exchange = 12;  // pictures of the pool that each step replaces by new ones
+  // The sizes of the network (library_network.h); the weights' file keeps them.
+  std::vector<int> channels = {48, 96, 192, 256};
+  int features = 512;
   // Training seeds of instances lie in [1, kHeldOutSeed); 0 samples others.
   std::uint64_t seed = 1;
 

@@ -2,12 +2,31 @@
 
 #include <cmath>
 #include <numeric>
+#include <sstream>
+#include <type_traits>
 
 #include "core/error.h"
 #include "nn/compute.h"
 #include "nn/tensor_file.h"
 
 namespace simwright::nn {
+namespace {
+
+// Returns the key of a parameter in an optimizer's states: its address, which libtorch writes as
+// text up to 2.0 and as a pointer from 2.1 on.
+template <typename States>
+typename States::key_type StateKey(const States&, const torch::Tensor& parameter) {
+  c10::TensorImpl* const address = parameter.unsafeGetTensorImpl();
+  if constexpr (std::is_same_v<typename States::key_type, std::string>) {
+    std::ostringstream text;
+    text << address;
+    return text.str();
+  } else {
+    return address;
+  }
+}
+
+}  // namespace
 
 bool TrainerOptions::IsValid(std::string* error) const {
   const auto fail = [&](const char* why) {
@@ -99,8 +118,7 @@ void Trainer::SaveState(int step) const {
   // AdamW's moments, in the order of the parameters.
   const std::vector<torch::Tensor> parameters = module_->parameters();
   for (size_t i = 0; i < parameters.size(); ++i) {
-    const auto found =
-        optimizer_->state().find(c10::guts::to_string(parameters[i].unsafeGetTensorImpl()));
+    const auto found = optimizer_->state().find(StateKey(optimizer_->state(), parameters[i]));
     if (found == optimizer_->state().end()) continue;
     const auto& moments = static_cast<const torch::optim::AdamWParamState&>(*found->second);
     const std::string name = "adam." + std::to_string(i);
@@ -126,8 +144,7 @@ void Trainer::LoadState() {
     moments->step(tensors.at(name + ".step").item<std::int64_t>());
     moments->exp_avg(tensors.at(name + ".first").to(parameters[i].device()));
     moments->exp_avg_sq(tensors.at(name + ".second").to(parameters[i].device()));
-    optimizer_->state()[c10::guts::to_string(parameters[i].unsafeGetTensorImpl())] =
-        std::move(moments);
+    optimizer_->state()[StateKey(optimizer_->state(), parameters[i])] = std::move(moments);
   }
   first_ = tensors.at("step").item<int>();
 }

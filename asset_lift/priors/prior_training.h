@@ -20,6 +20,11 @@ using TrainingMeshSampler = std::function<core::TexturedMesh(core::Rng* rng)>;
 struct PriorTrainingOptions {
   nn::TrainerOptions trainer;
   int batch = 16;  // photos per step
+  // For the shape network: the photos of a step that are newly rendered (0: all); the step draws
+  // its `batch` from the `memory` last ones (some 300 KB each). Rendering takes longer than a GPU's
+  // step.
+  int fresh = 0;
+  int memory = 0;
   // The number of objects kept ready for rendering. Each step renders photos of random ones and
   // replaces the `exchange` oldest.
   int pool = 160;

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "asset_lift/priors/prior_training.h"
 #include "asset_lift/priors/shape_example.h"
@@ -18,41 +20,85 @@ struct Batch {
   torch::Tensor elevation;  // (B)
 };
 
-torch::Tensor Bytes(std::vector<std::uint8_t>* values, at::IntArrayRef shape) {
-  return torch::from_blob(values->data(), shape, torch::kUInt8).to(torch::kFloat).div(255.0);
+torch::Tensor BytesOf(std::vector<std::uint8_t>* values, at::IntArrayRef shape) {
+  return torch::from_blob(values->data(), shape, torch::kUInt8);
 }
 
-// Samples photos of random objects of the pool. A mirrored photo is a photo of a mirrored object.
-Batch SampleBatch(const TrainingPool& pool, int size, std::uint64_t seed, std::uint64_t step) {
-  std::vector<ShapeExample> examples(static_cast<size_t>(size));
-  std::vector<std::uint8_t> mirrored(static_cast<size_t>(size));
-  core::ParallelFor(size, [&](int i) {
-    core::Rng rng =
-        core::StreamRng(seed ^ 0x51a9e5ull, step * 4096 + static_cast<std::uint64_t>(i));
-    const TrainingObject& object =
-        pool.object(static_cast<int>(core::UniformIndex(rng, pool.size())));
-    examples[static_cast<size_t>(i)] = MakeShapeExample(object, &rng);
-    mirrored[static_cast<size_t>(i)] = core::Uniform(rng) < 0.5;
-  });
-  std::vector<torch::Tensor> pictures, occupancy, back;
-  std::vector<float> elevation;
-  for (size_t i = 0; i < examples.size(); ++i) {
-    ShapeExample& e = examples[i];
-    torch::Tensor picture = PicturesFromRgba(e.picture.data(), 1, kCropSide)[0];
-    torch::Tensor volume = Bytes(&e.occupancy, {kDepthCells, kCropSide, kCropSide});
-    torch::Tensor behind = Bytes(&e.back, {kCropSide, kCropSide, 3}).permute({2, 0, 1});
-    if (mirrored[i]) {
-      picture = picture.flip(2);
-      volume = volume.flip(2);
-      behind = behind.flip(2);
+// The photos that a step trains on: newly rendered ones, and earlier ones that are kept in memory.
+class ShapeBatches {
+ public:
+  explicit ShapeBatches(const PriorTrainingOptions& options) : options_(options) {}
+
+  // Renders the new photos of a step from random objects of the pool, and draws the step's batch.
+  // All values are bytes.
+  Batch Draw(const TrainingPool& pool, std::uint64_t step) {
+    const int fresh =
+        options_.fresh > 0 ? std::min(options_.fresh, options_.batch) : options_.batch;
+    std::vector<ShapeExample> rendered(static_cast<size_t>(fresh));
+    core::ParallelFor(fresh, [&](int i) {
+      core::Rng rng =
+          core::StreamRng(options_.seed ^ 0x51a9e5ull, step * 4096 + static_cast<std::uint64_t>(i));
+      const TrainingObject& object =
+          pool.object(static_cast<int>(core::UniformIndex(rng, pool.size())));
+      rendered[static_cast<size_t>(i)] = MakeShapeExample(object, &rng);
+    });
+    if (fresh == options_.batch) return BatchOf(&rendered, Range(fresh));
+    for (ShapeExample& example : rendered) {
+      if (memory_.size() < static_cast<size_t>(options_.memory)) {
+        memory_.push_back(std::move(example));
+      } else {
+        memory_[static_cast<size_t>(made_) % memory_.size()] = std::move(example);
+      }
+      ++made_;
     }
-    pictures.push_back(picture);
-    occupancy.push_back(volume);
-    back.push_back(behind);
-    elevation.push_back(static_cast<float>(e.elevation));
+    core::Rng rng = core::StreamRng(options_.seed ^ 0x3e307ull, step);
+    std::vector<size_t> chosen(static_cast<size_t>(options_.batch));
+    for (size_t& at : chosen) {
+      at = static_cast<size_t>(core::UniformIndex(rng, static_cast<std::int64_t>(memory_.size())));
+    }
+    return BatchOf(&memory_, chosen);
   }
-  return {torch::stack(pictures), torch::stack(occupancy), torch::stack(back),
-          torch::tensor(elevation)};
+
+ private:
+  static std::vector<size_t> Range(int count) {
+    std::vector<size_t> indices(static_cast<size_t>(count));
+    std::iota(indices.begin(), indices.end(), size_t{0});
+    return indices;
+  }
+
+  static Batch BatchOf(std::vector<ShapeExample>* examples, const std::vector<size_t>& chosen) {
+    std::vector<torch::Tensor> pictures, occupancy, back;
+    std::vector<float> elevation;
+    for (const size_t at : chosen) {
+      ShapeExample& e = (*examples)[at];
+      pictures.push_back(BytesOf(&e.picture, {kCropSide, kCropSide, 4}));
+      occupancy.push_back(BytesOf(&e.occupancy, {kDepthCells, kCropSide, kCropSide}));
+      back.push_back(BytesOf(&e.back, {kCropSide, kCropSide, 3}).permute({2, 0, 1}));
+      elevation.push_back(static_cast<float>(e.elevation));
+    }
+    return {torch::stack(pictures), torch::stack(occupancy), torch::stack(back),
+            torch::tensor(elevation)};
+  }
+
+  const PriorTrainingOptions options_;
+  std::vector<ShapeExample> memory_;
+  std::int64_t made_ = 0;
+};
+
+// Returns a batch of bytes as numbers on the device, a half of it mirrored: a mirrored photo is a
+// photo of a mirrored object.
+Batch NumbersOn(const torch::Device& device, const Batch& bytes) {
+  const auto numbers = [&](const torch::Tensor& t) {
+    return t.to(device).to(torch::kFloat).div(255.0);
+  };
+  const torch::Tensor turned =
+      torch::rand({bytes.elevation.size(0), 1, 1, 1}, torch::TensorOptions(device)) < 0.5;
+  const auto mirrored = [&](const torch::Tensor& t) { return torch::where(turned, t.flip(3), t); };
+  const torch::Tensor rgba = numbers(bytes.pictures).permute({0, 3, 1, 2});
+  const torch::Tensor alpha = rgba.slice(1, 3, 4);
+  const torch::Tensor pictures = torch::cat({(2.0 * rgba.slice(1, 0, 3) - 1.0) * alpha, alpha}, 1);
+  return {mirrored(pictures).contiguous(), mirrored(numbers(bytes.occupancy)),
+          mirrored(numbers(bytes.back)), bytes.elevation.to(device)};
 }
 
 struct Losses {
@@ -113,13 +159,12 @@ PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& mes
   const PriorTraining training{"shape",    {"volume IoU", "elevation error, deg"},
                                0,          network.get(),
                                kept.get(), sizes.Metadata()};
+  ShapeBatches batches(options);
   return TrainPrior(training, meshes, options, weights, progress, report,
                     [&](const TrainingPool& pool, int step) -> PriorBatch {
-                      const Batch sampled = SampleBatch(pool, options.batch, options.seed,
-                                                        static_cast<std::uint64_t>(step));
-                      return [&network, device, sampled] {
-                        const Batch batch{sampled.pictures.to(device), sampled.occupancy.to(device),
-                                          sampled.back.to(device), sampled.elevation.to(device)};
+                      const Batch drawn = batches.Draw(pool, static_cast<std::uint64_t>(step));
+                      return [&network, device, drawn] {
+                        const Batch batch = NumbersOn(device, drawn);
                         const Losses losses = LossesOf(network(batch.pictures), batch);
                         return PriorLoss{losses.total, {losses.iou, losses.elevation_error}};
                       };

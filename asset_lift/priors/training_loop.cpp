@@ -58,6 +58,9 @@ bool PriorTrainingOptions::IsValid(std::string* error) const {
   };
   if (!trainer.IsValid(error)) return false;
   if (batch < 1) return fail("training needs at least one photo per step");
+  if (fresh < 0 || (fresh > 0 && fresh < batch && memory < batch)) {
+    return fail("training on photos of earlier steps needs a memory of at least one batch");
+  }
   if (pool < 1 || exchange < 0 || exchange > pool) return fail("the pool is too small");
   if (!(parametric_share >= 0.0 && parametric_share <= 1.0)) {
     return fail("parametric_share must be in [0, 1]");
@@ -92,9 +95,12 @@ PriorTrainingReport TrainPrior(const PriorTraining& training,
       options.seed + training.seed_offset + 1000003ull * static_cast<std::uint64_t>(first));
   progress->Stage(training.kind + " prior", steps - first);
   TrainingMeans means(training.metrics, steps, listener);
+  // Preparing few objects does not keep all cores busy: it runs beside the rendering of the others.
   const auto draw = [&](int step) {
-    pool.Exchange(options.exchange);
-    return source(pool, step);
+    auto prepared = std::async(std::launch::async, [&] { return pool.Prepare(options.exchange); });
+    PriorBatch batch = source(pool, step);
+    pool.Exchange(prepared.get());
+    return batch;
   };
   // One batch is prepared ahead: neither rendering nor the network alone keeps all cores busy.
   std::future<PriorBatch> next = std::async(std::launch::async, draw, first);

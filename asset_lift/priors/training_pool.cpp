@@ -17,12 +17,19 @@ TrainingPool::TrainingPool(TrainingSources sources, int size, std::uint64_t seed
   made_ = static_cast<std::uint64_t>(size);
 }
 
-void TrainingPool::Exchange(int count) {
+std::vector<std::unique_ptr<TrainingObject>> TrainingPool::Prepare(int count) const {
+  std::vector<std::unique_ptr<TrainingObject>> objects(static_cast<size_t>(count));
   core::ParallelFor(count, [&](int i) {
-    const std::uint64_t number = made_ + static_cast<std::uint64_t>(i);
-    objects_[number % objects_.size()] = Make(number);
+    objects[static_cast<size_t>(i)] = Make(made_ + static_cast<std::uint64_t>(i));
   });
-  made_ += static_cast<std::uint64_t>(count);
+  return objects;
+}
+
+void TrainingPool::Exchange(std::vector<std::unique_ptr<TrainingObject>> objects) {
+  for (std::unique_ptr<TrainingObject>& object : objects) {
+    objects_[static_cast<size_t>(made_ % objects_.size())] = std::move(object);
+    ++made_;
+  }
 }
 
 std::unique_ptr<TrainingObject> TrainingPool::Make(std::uint64_t number) const {

@@ -25,8 +25,10 @@ class TrainingPool {
   // Deterministic for a seed, regardless of the number of threads.
   TrainingPool(TrainingSources sources, int size, std::uint64_t seed);
 
-  // Replaces the `count` oldest objects.
-  void Exchange(int count);
+  // Prepares the next `count` objects, without changing the pool; may run in another thread.
+  std::vector<std::unique_ptr<TrainingObject>> Prepare(int count) const;
+  // Replaces the oldest objects by those that Prepare() returned.
+  void Exchange(std::vector<std::unique_ptr<TrainingObject>> objects);
   const TrainingObject& object(int index) const { return *objects_[static_cast<size_t>(index)]; }
   int size() const { return static_cast<int>(objects_.size()); }
 

@@ -111,13 +111,18 @@ void AddJoints(const FitCase& fit_case, const assets::ArticulatedAsset& truth,
 
 // Counts at which place among the network's kinds the true one is.
 void AddNetworkRanks(const library_fit::LibraryPrior& prior, const library_fit::FitPhoto& photo,
-                     int kind, Totals* totals) {
+                     int kind, const std::string& name, Totals* totals) {
   const std::vector<double> p =
       prior.KindProbabilities(asset_lift::CropImage(photo.photo, photo.alpha, photo.frame));
   const double ours = p[static_cast<size_t>(kind)];
   const auto before = std::count_if(p.begin(), p.end(), [&](double other) { return other > ours; });
   totals->network_right += before == 0;
   totals->among_five += before < 5;
+  if (before == 0) return;
+  const auto first = std::max_element(p.begin(), p.end()) - p.begin();
+  std::printf("%s: the network takes it for %s (%.2f against %.2f)\n", name.c_str(),
+              FitKinds()[static_cast<size_t>(first)].name.c_str(), p[static_cast<size_t>(first)],
+              ours);
 }
 
 // Fits one case, prints its line, and adds its figures.
@@ -137,7 +142,7 @@ void Measure(const Settings& settings, const library_fit::LibraryPrior& prior,
   }
   const library_fit::FitPhoto photo = library_fit::FitPhotoOf(fit_case.photo, alpha);
   if (settings.network) {
-    AddNetworkRanks(prior, photo, fit_case.kind, totals);
+    AddNetworkRanks(prior, photo, fit_case.kind, fit_case.name, totals);
     return;
   }
   const auto start = std::chrono::steady_clock::now();
