@@ -1,13 +1,15 @@
 // Measures how well objects of the library are fitted to photos of instances that no training used:
 // seeds from kHeldOutSeed + 500 on. Each is rendered from a random view over a background.
 //   bench_library_fit [--count N] [--rigid N] [--first N] [--segment] [--free none|fast|full]
-//                     [--network] [--only KIND] [--weights FILE] [--partnet FOLDER] [--tuning]
+//                     [--network] [--only KIND] [--stride N] [--weights FILE] [--partnet FOLDER]
+//                     [--tuning]
 //                     [--threads N]
 // --network: only the accuracy of the network's kinds, no fits; --count: instances per articulated
 // kind (default 2); --rigid: per rigid kind (1); --segment: the mask is found by SegmentObject
 // instead of given; --free: the free form that shapes are compared with (fast: first guess and
 // stage 2); --partnet: the folders KIND/NUMBER of PartNet-Mobility, imported and rendered, in place
-// of the library; --tuning: seeds below kHeldOutSeed, on which settings may be chosen.
+// of the library; --stride: every Nth rigid kind; --tuning: seeds below kHeldOutSeed, on which
+// settings may be chosen.
 //
 // "all kinds": nothing is known of the object, and what is measured is the best fit of any kind.
 // "kind given": the fit is restricted to the true kind, as a category given by the user does it.
@@ -46,7 +48,7 @@ using library_fit::FittedInstance;
 constexpr double kLeastPart = 0.1;  // of the diagonal: smaller parts are controls
 
 struct Settings {
-  int count = 2, rigid = 1, first = 0;
+  int count = 2, rigid = 1, first = 0, stride = 1;
   bool segment = false, tuning = false, network = false;
   std::string free_form = "fast", only;
   fs::path weights, partnet;
@@ -219,9 +221,11 @@ void PrintTotals(const char* name, const Totals& t) {
 void MeasureLibrary(const Settings& settings, const library_fit::LibraryPrior& prior) {
   const std::vector<core::Image> backgrounds = ExampleBackgrounds();
   Totals articulated, rigid;
+  int rigid_kinds = 0;
   for (size_t kind = 0; kind < FitKinds().size(); ++kind) {
     const library_fit::FitKind& of = FitKinds()[kind];
     if (!settings.only.empty() && of.name != settings.only) continue;
+    if (of.articulated == nullptr && rigid_kinds++ % settings.stride != 0) continue;
     const int count = of.articulated != nullptr ? settings.count : settings.rigid;
     for (int i = 0; i < count; ++i) {
       const std::uint64_t seed = (settings.tuning ? 1'000'000 : library_fit::kHeldOutSeed + 500) +
@@ -305,6 +309,8 @@ Settings ReadSettings(int argc, char** argv) {
       settings.rigid = std::stoi(value());
     else if (flag == "--first")
       settings.first = std::stoi(value());
+    else if (flag == "--stride")
+      settings.stride = std::max(1, std::stoi(value()));
     else if (flag == "--segment")
       settings.segment = true;
     else if (flag == "--network")

@@ -125,6 +125,29 @@ TEST_F(FullLift, TrainsAnotherSizeOnTheMeshesOfASampler) {
   EXPECT_FALSE(options.IsValid(nullptr));
 }
 
+TEST_F(FullLift, TrainsOnPhotosOfEarlierSteps) {
+  PriorTrainingOptions options;
+  options.trainer.steps = 5;
+  options.trainer.save_every = 5;
+  options.batch = 3;
+  options.fresh = 1;
+  options.memory = 3;
+  options.pool = 2;
+  options.parametric_share = 1.0;
+  options.shape_channels = {16, 32};
+  core::Progress silent;
+  const PriorTrainingReport report = TrainShapeNetwork({}, options, Weights("kept.pt"), &silent);
+  EXPECT_EQ(report.step, 5);
+  // At the start the odds are even: the entropy is log 2 and the Dice term at most a half.
+  EXPECT_GT(report.loss, 0.1);
+  EXPECT_LT(report.loss, 2.0);
+  EXPECT_NO_THROW(ShapePrior(Weights("kept.pt")));
+  std::string error;
+  options.memory = 2;  // less than a batch
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_NE(error.find("memory"), std::string::npos) << error;
+}
+
 TEST_F(FullLift, BothStagesGiveASolidThatShowsThePhoto) {
   LiftPriors priors;
   priors.shape = std::make_shared<ShapePrior>(Weights("shape.pt"));

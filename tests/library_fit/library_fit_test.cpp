@@ -309,6 +309,8 @@ TEST(LibraryTraining, ASmallTrainingLearnsAndWritesWeights) {
   options.batch = 8;
   options.pool = 16;
   options.exchange = 2;
+  options.channels = {16, 32, 48, 64};
+  options.features = 64;
   core::Progress progress;
   const auto report = TrainLibraryNetwork(options, folder / "library_prior.pt", &progress);
   EXPECT_EQ(report.step, 8);
@@ -322,6 +324,11 @@ TEST(LibraryTraining, ASmallTrainingLearnsAndWritesWeights) {
   double sum = 0.0;
   for (const double p : kinds) sum += p;
   EXPECT_NEAR(sum, 1.0, 1e-5);
+  // The reader takes the network's size from the file.
+  EXPECT_LT(fs::file_size(folder / "library_prior.pt"), fs::file_size(ShippedWeights()) / 8);
+  options.channels = {16, 32, 48, 60};
+  EXPECT_THROW(TrainLibraryNetwork(options, folder / "x.pt", &progress), core::Error);
+  options.channels = {16, 32, 48, 64};
   options.pool = 0;
   EXPECT_THROW(TrainLibraryNetwork(options, folder / "x.pt", &progress), core::Error);
 }
