@@ -137,20 +137,26 @@ std::vector<int> FitSearch::ContinuousChoices(const FitPoint& point) const {
 }
 
 void FitSearch::Refine(int generations, double step, core::Rng* rng, FitPoint* point) const {
-  const std::vector<int> choices = ContinuousChoices(*point);
-  const Eigen::Index dimensions =
-      kFixedNumbers + static_cast<Eigen::Index>(choices.size()) + (CanOpen(*point) ? 1 : 0);
-  const FitPoint start = *point;
   CmaEsOptions options;
   options.generations = generations;
   options.step = step;
-  const CmaEsResult result = MinimizeByCmaEs(
-      [&](const Eigen::VectorXd& x) {
-        FitPoint moved = Moved(start, choices, x);
-        return Evaluate(&moved);
+  Refine(
+      [&](int dimensions, const std::function<double(const Eigen::VectorXd&)>& loss) {
+        return MinimizeByCmaEs(loss, Eigen::VectorXd::Zero(dimensions), options, rng).best;
       },
-      Eigen::VectorXd::Zero(dimensions), options, rng);
-  *point = Moved(start, choices, result.best);
+      point);
+}
+
+void FitSearch::Refine(const FitMinimizer& minimizer, FitPoint* point) const {
+  const std::vector<int> choices = ContinuousChoices(*point);
+  const int dimensions =
+      kFixedNumbers + static_cast<int>(choices.size()) + (CanOpen(*point) ? 1 : 0);
+  const FitPoint start = *point;
+  const Eigen::VectorXd best = minimizer(dimensions, [&](const Eigen::VectorXd& x) {
+    FitPoint moved = Moved(start, choices, x);
+    return Evaluate(&moved);
+  });
+  *point = Moved(start, choices, best);
   Evaluate(point);
 }
 
