@@ -1,39 +1,34 @@
 #include "capture/capture_lift.h"
 
-#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
-#include "asset_lift/camera/view_frame.h"
 #include "asset_lift/mesh_fit/shape_fit.h"
 #include "asset_lift/outline/inflation.h"
 #include "asset_lift/priors/initial_shape.h"
+#include "capture/view_matte.h"
 #include "core/error.h"
 #include "texture/photo_projection.h"
 
 namespace simwright::capture {
 namespace {
 
-asset_lift::Matte MatteOf(const CaptureView& view) {
-  asset_lift::Matte matte;
-  matte.method = "views together";
-  matte.alpha = core::Image(view.photo.width, view.photo.height, 1);
-  matte.left = view.photo.width;
-  matte.top = view.photo.height;
-  double sum = 0.0;
-  for (int y = 0; y < view.photo.height; ++y) {
-    for (int x = 0; x < view.photo.width; ++x) {
-      const float share = *view.opacity.At(x, y);
-      *matte.alpha.At(x, y) = static_cast<std::uint8_t>(std::lround(255.0f * share));
-      sum += share;
-      if (share < 0.5f) continue;
-      matte.left = std::min(matte.left, x);
-      matte.top = std::min(matte.top, y);
-      matte.right = std::max(matte.right, x + 1);
-      matte.bottom = std::max(matte.bottom, y + 1);
-    }
+std::string StartName(const StartShape& start) {
+  const std::string hull = "the visual hull of " + std::to_string(start.views.size()) + " photos";
+  return start.depth_share > 0.0 ? hull + ", carved by stereo," : hull;
+}
+
+core::Finding StereoFinding(const StartShape& start) {
+  if (start.depth_share > 0.0) {
+    return {"stereo", core::Severity::kInfo, "",
+            "stereo found the depth of " + std::to_string(std::lround(100.0 * start.depth_share)) +
+                " % of the object's pixels",
+            start.depth_share};
   }
-  matte.area = sum / (static_cast<double>(view.photo.width) * view.photo.height);
-  return matte;
+  return {"stereo", core::Severity::kInfo, "",
+          "the object has too little texture for stereo: its shape rests on outlines and colours",
+          0.0};
 }
 
 }  // namespace
@@ -43,32 +38,33 @@ CaptureLiftOptions::CaptureLiftOptions() {
   fit.mesh.max_side = fit_side;
   fit.mesh.first_edge_ratio = 0.03;
   fit.mesh.last_edge_ratio = 0.012;
+  fit.mesh.depth_tolerance = 0.01;
 }
 
 asset_lift::LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options,
                                    core::Progress* progress) {
+  return LiftCapture(capture, MakeStartShape(capture, options.fit_side, options.start, progress),
+                     options, progress);
+}
+
+asset_lift::LiftedMesh LiftCapture(const Capture& capture, const StartShape& start,
+                                   const CaptureLiftOptions& options, core::Progress* progress) {
   asset_lift::LiftedMesh lifted;
   lifted.findings = capture.findings;
-  std::vector<asset_lift::ObservedView> views;
   std::vector<texture::PhotoView> photos;
-  std::vector<asset_lift::Matte> mattes;
   for (const CaptureView& view : capture.views) {
-    mattes.push_back(MatteOf(view));
-    if (mattes.back().right <= mattes.back().left) {
-      mattes.pop_back();
-      continue;
-    }
-    photos.push_back({view.camera, view.photo, mattes.back().alpha});
-    views.push_back(asset_lift::CropView(view.photo, mattes.back().alpha,
-                                         asset_lift::FrameAround(mattes.back(), view.camera, 1.0),
-                                         options.fit_side));
+    asset_lift::Matte matte = MatteOf(view);
+    if (matte.right <= matte.left) continue;
+    photos.push_back({view.camera, view.photo, matte.alpha});
+    if (photos.size() == 1) lifted.matte = std::move(matte);
   }
-  if (views.empty()) throw core::Error("no view has a mask", "capture");
+  if (photos.empty()) throw core::Error("no view has a mask", "capture");
+  if (options.start.use_stereo) lifted.findings.push_back(StereoFinding(start));
   asset_lift::ShapeFitOptions stages = options.fit;
   stages.field.seed = stages.mesh.seed = options.seed;
   stages.mesh.max_side = options.fit_side;
   const asset_lift::ShapeFit fit = asset_lift::FitShape(
-      views, asset_lift::InitialShapeFrom(capture.hull), nullptr, nullptr, stages, progress);
+      start.views, asset_lift::InitialShapeFrom(start.mesh), nullptr, nullptr, stages, progress);
   lifted.findings.insert(lifted.findings.end(), fit.findings.begin(), fit.findings.end());
   progress->Stage("texture");
   texture::PhotoProjectionOptions projection;
@@ -76,8 +72,7 @@ asset_lift::LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOpti
   lifted.mesh = texture::ProjectPhotos(fit.mesh, photos, fit.colors, projection);
   lifted.camera = photos[0].camera;
   lifted.photo = photos[0].photo;
-  lifted.matte = mattes[0];
-  lifted.start = "the visual hull of " + std::to_string(views.size()) + " photos";
+  lifted.start = StartName(start);
   lifted.silhouette_iou = asset_lift::SilhouetteIou(fit.mesh, lifted.camera, lifted.matte);
   lifted.findings.push_back(
       {"shape", core::Severity::kInfo, "",

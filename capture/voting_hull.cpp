@@ -40,8 +40,9 @@ class ConeVote {
 
 }  // namespace
 
-core::TriangleMesh VotingHull(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
-                              const VotingHullOptions& options) {
+geometry::ScalarGrid VotingHullField(const std::vector<HullVote>& votes,
+                                     const Eigen::AlignedBox3d& box,
+                                     const VotingHullOptions& options) {
   if (options.cells < 8 || box.isEmpty()) throw core::Error("the grid is empty", "visual hull");
   const std::vector<ConeVote> cones(votes.begin(), votes.end());
   geometry::ScalarGrid field;
@@ -69,7 +70,13 @@ core::TriangleMesh VotingHull(const std::vector<HullVote>& votes, const Eigen::A
       }
     }
   });
-  const core::TriangleMesh hull = geometry::ExtractIsosurface(field, 0.0f);
+  return field;
+}
+
+core::TriangleMesh VotingHull(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
+                              const VotingHullOptions& options) {
+  const core::TriangleMesh hull =
+      geometry::ExtractIsosurface(VotingHullField(votes, box, options), 0.0f);
   return hull.empty() ? hull : asset_lift::LargeComponents(hull);
 }
 

@@ -52,7 +52,8 @@ bool AllFinite(const std::vector<Eigen::Vector3f>& vectors) {
 MeshDescent::MeshDescent(const core::TriangleMesh& mesh, const std::vector<Eigen::Vector3f>& colors,
                          double diagonal, const MeshFitOptions& options)
     : options_(options),
-      weights_{options.mask_weight, options.color_weight, options.depth_weight, diagonal},
+      weights_{options.mask_weight, options.color_weight, options.depth_weight, diagonal,
+               options.depth_tolerance * diagonal},
       mesh_(mesh),
       colors_(colors),
       steps_(mesh, options.smoothing),

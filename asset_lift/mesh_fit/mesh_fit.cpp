@@ -250,8 +250,8 @@ bool MeshFitOptions::IsValid(std::string* error) const {
   if (views_per_step < 1 || samples_per_side < 1 || edge_samples < 0) {
     return fail("views_per_step and samples_per_side must be at least 1");
   }
-  for (const double weight :
-       {mask_weight, color_weight, depth_weight, normal_weight, objective_weight, smoothing}) {
+  for (const double weight : {mask_weight, color_weight, depth_weight, depth_tolerance,
+                              normal_weight, objective_weight, smoothing}) {
     if (!(weight >= 0.0) || !std::isfinite(weight)) {
       return fail("weights must be finite and not negative");
     }

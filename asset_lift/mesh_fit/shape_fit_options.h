@@ -24,7 +24,9 @@ struct MeshFitOptions {
 
   double mask_weight = 1.0;
   double color_weight = 1.0;
-  double depth_weight = 20.0;   // of squared depths in units of the diagonal
+  double depth_weight = 20.0;  // of squared depths in units of the diagonal
+  // Depths that are wrong by more than this share of the diagonal count linearly; 0: all squared.
+  double depth_tolerance = 0.0;
   double normal_weight = 0.01;  // of 1 - cosine across edges: smooths regions that no view
                                 // constrains
   // From about this angle on, an edge is a crease that costs the same whatever its angle

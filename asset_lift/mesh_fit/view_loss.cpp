@@ -106,9 +106,13 @@ double ViewLoss(const ViewTarget& target, const render::DifferentiableBuffers& p
     }
     if (depth && target.depth.values[i] > 0.0f && target.opacity.values[i] > 0.999f &&
         picture.mask.values[i] > 0.999f) {
-      const double by = 1.0 / weights.length;
-      square(weights.depth * share * by * by, picture.depth.values[i] - target.depth.values[i],
-             &gradient->depth.values[i]);
+      const double weight = weights.depth * share / (weights.length * weights.length);
+      const double difference = picture.depth.values[i] - target.depth.values[i];
+      const double most =
+          weights.depth_tolerance > 0.0 ? weights.depth_tolerance : std::abs(difference);
+      const double held = std::clamp(difference, -most, most);
+      loss += weight * held * (2.0 * difference - held);
+      gradient->depth.values[i] = static_cast<float>(2.0 * weight * held);
     }
   }
   return loss;

@@ -23,6 +23,8 @@ ViewTarget MakeTarget(const ObservedView& view, int max_side);
 struct ViewLossWeights {
   double mask = 1.0, color = 1.0, depth = 1.0;
   double length = 1.0;  // m, the unit of depths: the object's diagonal
+  // Differences of depths over this (m) count linearly, as in Huber's loss; 0: all are squared.
+  double depth_tolerance = 0.0;
 };
 
 // Returns the squared differences per object pixel: coverage, colour (mean of the channels, both

@@ -1,14 +1,18 @@
 // Measures the reconstruction from photos on a mat: objects that no training used are rendered on a
 // mat from an orbit, with lens distortion, noise and JPEG compression, and reconstructed.
-//   bench_capture_quality [--objects N] [--photos N] [--width N] [--only NAME] [--hull]
-//                         [--photos-folder DIR] [--dump DIR]
+//   bench_capture_quality [--objects N] [--photos N] [--width N] [--only NAME] [--hull] [--develop]
+//                         [--photos-folder DIR [--render]] [--dump DIR]
 // Objects: pieces of the list held_out.txt and library kinds of seeds from 9101 on, alternating,
-// scaled down where they do not fit on A4. --photos-folder keeps the rendered photos; --dump writes
-// masks and meshes; --hull stops after the visual hull. Columns: the Chamfer distance (mean of both
-// mean distances between the outer surfaces, in percent of the truth's diagonal, without any
-// alignment: the mat's frame is the truth's) of the hull and of the fitted mesh; the size's error
-// (percent of the longest side); the cameras' position error (percent of the distance); the
-// reprojection error (pixels); masks' IoU (mean, least); seconds.
+// scaled down where they do not fit on A4. --develop takes pieces of other catalogues and other
+// seeds (7001 on): settings are chosen on these. --photos-folder keeps the rendered photos,
+// --render stops there; --dump writes masks and meshes; --hull stops after the visual hull.
+// Columns: the Chamfer distance (mean of both mean distances between the outer surfaces, in percent
+// of the truth's diagonal, without any alignment: the mat's frame is the truth's) of the hull, of
+// the fit's start and of the fitted mesh; the size's error (percent of the longest side); the
+// cameras' position error (percent of the distance); the reprojection error (pixels); masks' IoU
+// (mean, least); the share of the object's pixels whose depth stereo found (percent), the median
+// and the ninth decile of its error (percent of the diagonal); seconds to the hull, for the start,
+// all.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -25,10 +29,12 @@
 #include "capture/capture.h"
 #include "capture/capture_lift.h"
 #include "capture/object_masks.h"
+#include "capture/start_shape.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "geometry/surface_distance.h"
 #include "library/rigid/rigid_kinds.h"
+#include "render/forward.h"
 #include "tests/capture/mat_photos.h"
 
 namespace simwright::bench {
@@ -36,12 +42,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kRadian = std::numbers::pi / 180.0;
+constexpr const char* kFurniture = "/usr/share/sweethome3d/furniture";
 constexpr double kLargestSide = 0.13, kLargestHeight = 0.17;  // m, of objects on A4
 
 struct Settings {
   int objects = 20, photos = 24, width = 1600;
   std::string only;
-  bool hull_only = false;
+  bool hull_only = false, develop = false, render_only = false;
   fs::path photos_folder, dump;
 };
 
@@ -60,29 +67,48 @@ void PlaceOnMat(core::TexturedMesh* object) {
   core::Transform(Eigen::Scaling(scale) * Eigen::Translation3d(-base), &object->mesh);
 }
 
-std::vector<CapturedObject> Objects(int count) {
-  std::vector<CapturedObject> objects;
+std::vector<CatalogueObject> HeldOutPieces() {
   const fs::path list = fs::path(SIMWRIGHT_SOURCE_DIR) / "bench/asset_lift/held_out.txt";
   std::vector<CatalogueObject> pieces;
   for (const HeldOutPiece& piece : ReadHeldOut(list)) {
     try {
-      pieces.push_back(LoadHeldOut({piece}, "/usr/share/sweethome3d/furniture")[0]);
+      pieces.push_back(LoadHeldOut({piece}, kFurniture)[0]);
     } catch (const core::Error& error) {
       std::fprintf(stderr, "left out: %s\n", error.what());
     }
   }
+  return pieces;
+}
+
+std::vector<CatalogueObject> DevelopmentPieces() {
+  std::vector<CatalogueObject> pieces;
+  for (const char* catalogue : {"BlendSwap-CC-0.sh3f", "Scopia.sh3f"}) {
+    constexpr int kMost = 40;
+    for (CatalogueObject& piece : HouseholdObjects({fs::path(kFurniture) / catalogue}, kMost)) {
+      pieces.push_back(std::move(piece));
+    }
+  }
+  return pieces;
+}
+
+std::vector<CapturedObject> Objects(const Settings& settings) {
+  const int count = settings.objects;
+  std::vector<CapturedObject> objects;
+  const std::vector<CatalogueObject> pieces =
+      settings.develop ? DevelopmentPieces() : HeldOutPieces();
   for (int i = 0; i < count / 2 && !pieces.empty(); ++i) {
-    CatalogueObject& piece =
+    const CatalogueObject& piece =
         pieces[static_cast<std::size_t>(i) * pieces.size() / static_cast<std::size_t>(count / 2)];
     objects.push_back({piece.name, piece.visual});
   }
   const std::vector<library::RigidKind>& kinds = library::RigidKinds();
   const int library = count - static_cast<int>(objects.size());
+  const std::uint64_t seed = settings.develop ? 7001 : 9101;
   for (int i = 0; i < library; ++i) {
     const library::RigidKind& kind =
         kinds[static_cast<std::size_t>(i) * kinds.size() / static_cast<std::size_t>(library)];
     objects.push_back(
-        {kind.name, library::MakeRigidObject(kind, 9101 + static_cast<std::uint64_t>(i)).visual});
+        {kind.name, library::MakeRigidObject(kind, seed + static_cast<std::uint64_t>(i)).visual});
   }
   for (CapturedObject& object : objects) PlaceOnMat(&object.mesh);
   return objects;
@@ -179,6 +205,30 @@ double SizeError(const core::TriangleMesh& truth, const core::TriangleMesh& mesh
   return 100.0 * (b - a).cwiseAbs().maxCoeff() / a.maxCoeff();
 }
 
+struct DepthScore {
+  double median = 0.0, ninth_decile = 0.0;  // of the errors, percent of the truth's diagonal
+};
+
+// Compares the depths that stereo found with the truth's.
+DepthScore DepthErrors(const core::TexturedMesh& truth, const capture::StartShape& start) {
+  render::Scene scene;
+  scene.Add(&truth);
+  scene.Commit();
+  std::vector<double> errors;
+  for (const asset_lift::ObservedView& view : start.views) {
+    if (view.depth.empty()) continue;
+    const render::ForwardBuffers expected = render::RenderForward(scene, view.camera);
+    for (std::size_t i = 0; i < expected.depth.size(); ++i) {
+      if (!(view.depth.values[i] > 0.0f && expected.depth[i] > 0.0f)) continue;
+      errors.push_back(std::abs(view.depth.values[i] - expected.depth[i]));
+    }
+  }
+  if (errors.empty()) return {};
+  std::sort(errors.begin(), errors.end());
+  const double percent = 100.0 / core::Bounds(truth.mesh).diagonal().norm();
+  return {percent * errors[errors.size() / 2], percent * errors[errors.size() * 9 / 10]};
+}
+
 // Returns the Chamfer distance of the final mesh, percent.
 double Measure(const CapturedObject& object, const Settings& settings) {
   capture::MatPhotoOptions options;
@@ -187,6 +237,7 @@ double Measure(const CapturedObject& object, const Settings& settings) {
   const auto poses = capture::OrbitPoses(
       settings.photos, {15 * kRadian, 38 * kRadian, 62 * kRadian}, radius, options.lens, 7);
   const std::vector<core::Image> photos = PhotosOf(object, settings, options, poses);
+  if (settings.render_only) return 0.0;
   capture::CaptureSource source;
   for (std::size_t i = 0; i < photos.size(); ++i) source.photos.push_back({std::to_string(i), 0.0});
   source.read = [&](int i) { return photos[static_cast<std::size_t>(i)]; };
@@ -200,11 +251,21 @@ double Measure(const CapturedObject& object, const Settings& settings) {
   const MaskScore masks = MaskIou(capture, object.mesh.mesh);
   const double hull = ChamferPercent(object.mesh.mesh, capture.hull);
   if (!settings.dump.empty()) Dump(settings.dump, object, capture);
-  double fitted = hull, size = SizeError(object.mesh.mesh, capture.hull);
-  double all_seconds = hull_seconds;
+  const capture::CaptureLiftOptions lift;
+  const double before_start = seconds();
+  const capture::StartShape first =
+      capture::MakeStartShape(capture, lift.fit_side, lift.start, &progress);
+  const double start_seconds = seconds() - before_start;
+  const DepthScore depths = DepthErrors(object.mesh, first);
+  const double started = ChamferPercent(object.mesh.mesh, first.mesh);
+  if (!settings.dump.empty()) {
+    core::WriteFile(settings.dump / (object.name + "_start.obj"), assets::ObjText(first.mesh));
+  }
+  double fitted = started, size = SizeError(object.mesh.mesh, first.mesh);
+  double all_seconds = hull_seconds + start_seconds;
   if (!settings.hull_only) {
     const auto begin = std::chrono::steady_clock::now();
-    const asset_lift::LiftedMesh lifted = capture::LiftCapture(capture, {}, &progress);
+    const asset_lift::LiftedMesh lifted = capture::LiftCapture(capture, first, lift, &progress);
     all_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     fitted = ChamferPercent(object.mesh.mesh, lifted.mesh.mesh);
     size = SizeError(object.mesh.mesh, lifted.mesh.mesh);
@@ -213,9 +274,11 @@ double Measure(const CapturedObject& object, const Settings& settings) {
                       assets::ObjText(lifted.mesh.mesh));
     }
   }
-  std::printf("%-22s %6.2f %6.2f %6.2f %6.2f %6.2f %6.3f %6.3f %6.1f %6.1f\n", object.name.c_str(),
-              hull, fitted, size, PositionError(capture, poses), capture.calibration.error,
-              masks.mean, masks.least, hull_seconds, all_seconds);
+  std::printf(
+      "%-22s %6.2f %6.2f %6.2f %6.2f %6.2f %6.2f %6.3f %6.3f %6.1f %6.2f %6.2f %6.1f %6.1f %6.1f\n",
+      object.name.c_str(), hull, started, fitted, size, PositionError(capture, poses),
+      capture.calibration.error, masks.mean, masks.least, 100.0 * first.depth_share, depths.median,
+      depths.ninth_decile, hull_seconds, start_seconds, all_seconds);
   std::fflush(stdout);
   return fitted;
 }
@@ -224,8 +287,12 @@ Settings ParseArguments(int count, char** arguments) {
   Settings settings;
   for (int i = 1; i < count; ++i) {
     const std::string flag = arguments[i];
-    if (flag == "--hull") {
-      settings.hull_only = true;
+    bool* given = flag == "--hull"      ? &settings.hull_only
+                  : flag == "--develop" ? &settings.develop
+                  : flag == "--render"  ? &settings.render_only
+                                        : nullptr;
+    if (given != nullptr) {
+      *given = true;
       continue;
     }
     if (i + 1 >= count) throw core::Error("needs a value", flag);
@@ -250,15 +317,17 @@ Settings ParseArguments(int count, char** arguments) {
 
 int Main(int count, char** arguments) {
   const Settings settings = ParseArguments(count, arguments);
-  std::printf("%-22s %6s %6s %6s %6s %6s %6s %6s %6s %6s\n", "object", "hull", "fit", "size",
-              "camera", "pixels", "iou", "least", "s", "all s");
+  std::printf("%-22s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s\n", "object", "hull",
+              "start", "fit", "size", "camera", "pixels", "iou", "least", "stereo", "error", "90 %",
+              "s", "start s", "all s");
   std::vector<double> all;
-  for (const CapturedObject& object : Objects(settings.objects)) {
+  for (const CapturedObject& object : Objects(settings)) {
     if (!settings.only.empty() && object.name != settings.only) continue;
     try {
       all.push_back(Measure(object, settings));
     } catch (const core::Error& error) {
       std::printf("%-22s failed: %s\n", object.name.c_str(), error.what());
+      std::fflush(stdout);
       all.push_back(100.0);
     }
   }

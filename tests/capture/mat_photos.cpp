@@ -207,6 +207,31 @@ core::TexturedMesh PaintedBox(const Eigen::Vector3d& sides, std::uint64_t seed) 
   return box;
 }
 
+core::TexturedMesh PaintedTray(const Eigen::Vector3d& sides, double wall, std::uint64_t seed) {
+  core::Rng rng(seed);
+  // Corners 0 to 7 outside, 8 to 15 of the hollow.
+  const auto corner = [&](int i) {
+    const bool hollow = i >= 8;
+    const double x = sides.x() - (hollow ? 2 * wall : 0.0);
+    const double y = sides.y() - (hollow ? 2 * wall : 0.0);
+    const double base = hollow ? wall : 0.0;
+    return Eigen::Vector3d(x * ((i & 1) - 0.5), y * ((i >> 1 & 1) - 0.5),
+                           (i >> 2 & 1) != 0 ? sides.z() : base);
+  };
+  core::TexturedMesh tray;
+  for (const auto& [a, b, c, d] :
+       {std::array{0, 1, 5, 4}, std::array{1, 3, 7, 5}, std::array{3, 2, 6, 7},
+        std::array{2, 0, 4, 6}, std::array{2, 3, 1, 0}, std::array{4, 5, 13, 12},
+        std::array{5, 7, 15, 13}, std::array{7, 6, 14, 15}, std::array{6, 4, 12, 14},
+        std::array{12, 13, 9, 8}, std::array{13, 15, 11, 9}, std::array{15, 14, 10, 11},
+        std::array{14, 12, 8, 10}, std::array{8, 9, 11, 10}}) {
+    const Eigen::Vector3d color(core::Uniform(rng, 60, 200), core::Uniform(rng, 60, 200),
+                                core::Uniform(rng, 60, 200));
+    AddQuad({corner(a), corner(b), corner(c), corner(d)}, FineBlotches(384, 6, color, &rng), &tray);
+  }
+  return tray;
+}
+
 Lens PhoneLens(int width, int height, double longer_fov) {
   Lens lens;
   lens.width = width;

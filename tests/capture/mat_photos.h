@@ -35,6 +35,11 @@ core::TexturedMesh PlainBox(const Eigen::Vector3d& sides, const Eigen::Vector3f&
 // axis. `sides`: m.
 core::TexturedMesh PaintedBox(const Eigen::Vector3d& sides, std::uint64_t seed);
 
+// Returns an open box with walls and a floor of thickness `wall` (m), its nine visible faces and
+// its underside painted as those of PaintedBox: its hollow is not in its outlines. `sides`: m,
+// outside.
+core::TexturedMesh PaintedTray(const Eigen::Vector3d& sides, double wall, std::uint64_t seed);
+
 // Returns a lens of `width` x `height` pixels, `longer_fov` (rad) over the longer side, with the
 // barrel distortion and the off-centre principal point of a phone.
 Lens PhoneLens(int width, int height, double longer_fov);
