@@ -8,16 +8,6 @@
 #include "core/error.h"
 
 namespace simwright::capture {
-namespace {
-
-// Sets the mesh to a field's surface, unless the field is empty.
-void TakeSurface(const geometry::ScalarGrid& field, core::TriangleMesh* mesh) {
-  const core::TriangleMesh surface = geometry::ExtractIsosurface(field, 0.0f);
-  if (!surface.empty()) *mesh = asset_lift::LargeComponents(surface);
-}
-
-}  // namespace
-
 StartShape MakeStartShape(const Capture& capture, int side, const StartShapeOptions& options,
                           core::Progress* progress) {
   StartShape start;
@@ -29,12 +19,6 @@ StartShape MakeStartShape(const Capture& capture, int side, const StartShapeOpti
   }
   if (start.views.empty()) throw core::Error("no view has a mask", "capture");
   start.mesh = capture.hull;
-  geometry::ScalarGrid field;
-  if (options.lower_peaks) {
-    field = HullField(capture.hull, options.field);
-    LowerPeaks(start.views, options.flat_tops, &field);
-    TakeSurface(field, &start.mesh);
-  }
   if (!options.use_stereo) return start;
   StereoDepths stereo = FindStereoDepths(start.views, capture.hull, options.stereo, progress);
   if (stereo.share < options.least_share) return start;
@@ -42,9 +26,10 @@ StartShape MakeStartShape(const Capture& capture, int side, const StartShapeOpti
   for (std::size_t i = 0; i < start.views.size(); ++i) {
     start.views[i].depth = std::move(stereo.depths[i]);
   }
-  if (!options.lower_peaks) field = HullField(capture.hull, options.field);
+  geometry::ScalarGrid field = HullField(capture.hull, options.field);
   CarveByDepth(start.views, options.carving, &field);
-  TakeSurface(field, &start.mesh);
+  const core::TriangleMesh carved = geometry::ExtractIsosurface(field, 0.0f);
+  if (!carved.empty()) start.mesh = asset_lift::LargeComponents(carved);
   return start;
 }
 

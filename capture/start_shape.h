@@ -5,7 +5,6 @@
 #include "asset_lift/camera/observed_view.h"
 #include "capture/capture.h"
 #include "capture/depth_carving.h"
-#include "capture/flat_tops.h"
 #include "capture/hull_field.h"
 #include "capture/stereo_depth.h"
 #include "core/mesh.h"
@@ -15,8 +14,6 @@ namespace simwright::capture {
 
 struct StartShapeOptions {
   HullFieldOptions field;
-  bool lower_peaks = false;
-  FlatTopOptions flat_tops;
   bool use_stereo = true;
   StereoOptions stereo;
   DepthCarvingOptions carving;

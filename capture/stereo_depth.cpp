@@ -1,6 +1,7 @@
 #include "capture/stereo_depth.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -13,7 +14,8 @@ namespace simwright::capture {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kConfirmAngle = 70.0;  // deg, between a view and those that may confirm it
+constexpr std::size_t kMostVoters = 64;  // views that are distinguished at a pixel
+constexpr double kConfirmAngle = 70.0;   // deg, between a view and those that may confirm it
 
 double ViewAngle(const core::Camera& a, const core::Camera& b, const Eigen::Vector3d& object) {
   const Eigen::Vector3d to_a = (a.position() - object).normalized();
@@ -88,7 +90,15 @@ class Stereo {
 
  private:
   void Match(int index);
-  bool Agrees(std::size_t view, const Eigen::Vector3d& point) const;
+  // The views whose surface lies at a pixel's depth, or before it.
+  struct Votes {
+    std::bitset<kMostVoters> agreeing, hiding;
+  };
+
+  // Notes at the pixels of a view where the surface that another view finds lies.
+  void Judge(std::size_t view, std::size_t by, std::vector<Votes>* votes) const;
+  // Returns true if a view finds the surface at a point; or it sees through it.
+  bool Agrees(std::size_t view, const Eigen::Vector3d& point, bool* sees_through) const;
   core::FloatImage Confirmed(std::size_t index) const;
   bool Supported(std::size_t index, int x, int y) const;
   float DepthAt(std::size_t view, int x, int y) const {
@@ -131,13 +141,40 @@ void Stereo::Match(int index) {
   planes_[at] = PatchMatch(matched_[at], neighbors, hull, up, diagonal_, options_.match).Run(&rng);
 }
 
-// Returns true if a view finds the surface at a point.
-bool Stereo::Agrees(std::size_t view, const Eigen::Vector3d& point) const {
+void Stereo::Judge(std::size_t view, std::size_t by, std::vector<Votes>* votes) const {
+  const core::Camera &camera = views_[view].camera, &other = views_[by].camera;
+  const Eigen::Isometry3d to_view = camera.world_from_camera.inverse() * other.world_from_camera;
+  const double near = options_.agreement * diagonal_;
+  for (int y = 0; y < other.height; ++y) {
+    for (int x = 0; x < other.width; ++x) {
+      const float measured = DepthAt(by, x, y);
+      if (!(measured > 0.0f)) continue;
+      const Eigen::Vector3d at =
+          to_view * Eigen::Vector3d(measured * (x + 0.5 - other.cx) / other.fx,
+                                    measured * (y + 0.5 - other.cy) / other.fy, measured);
+      const int u = static_cast<int>(std::floor(camera.fx * at.x() / at.z() + camera.cx));
+      const int v = static_cast<int>(std::floor(camera.fy * at.y() / at.z() + camera.cy));
+      if (!(at.z() > 0.0) || u < 0 || v < 0 || u >= camera.width || v >= camera.height) continue;
+      const float depth = DepthAt(view, u, v);
+      if (!(depth > 0.0f)) continue;
+      Votes& of = (*votes)[static_cast<std::size_t>(v) * camera.width + u];
+      if (std::abs(depth - at.z()) < near) {
+        of.agreeing.set(by % kMostVoters);
+      } else if (depth > at.z() + 2.0 * near) {
+        of.hiding.set(by % kMostVoters);
+      }
+    }
+  }
+}
+
+bool Stereo::Agrees(std::size_t view, const Eigen::Vector3d& point, bool* sees_through) const {
   const core::Camera& camera = views_[view].camera;
   const Eigen::Vector3d at = camera.Project(point);
   const int x = static_cast<int>(std::floor(at.x())), y = static_cast<int>(std::floor(at.y()));
+  *sees_through = false;
   if (!(at.z() > 0.0) || x < 0 || y < 0 || x >= camera.width || y >= camera.height) return false;
   const float depth = DepthAt(view, x, y);
+  *sees_through = depth > at.z() + 2.0 * options_.agreement * diagonal_;
   return depth > 0.0f && std::abs(depth - at.z()) < options_.agreement * diagonal_;
 }
 
@@ -163,14 +200,21 @@ core::FloatImage Stereo::Confirmed(std::size_t index) const {
     if (ViewAngle(camera, views_[j].camera, center_) < kConfirmAngle) others.push_back(j);
   }
   core::FloatImage depths(camera.width, camera.height, 1);
+  std::vector<Votes> votes(depths.values.size());
+  for (const std::size_t j : others) Judge(index, j, &votes);
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       const float depth = DepthAt(index, x, y);
       if (!(depth > 0.0f) || !Supported(index, x, y)) continue;
       const Eigen::Vector3d point = camera.position() + depth * camera.Ray({x + 0.5, y + 0.5});
-      int agreeing = 0;
-      for (const std::size_t j : others) agreeing += Agrees(j, point);
-      if (agreeing >= options_.least_agreeing) *depths.At(x, y) = depth;
+      const Votes& of = votes[static_cast<std::size_t>(y) * camera.width + x];
+      int agreeing = 0, against = static_cast<int>((of.hiding & ~of.agreeing).count());
+      for (const std::size_t j : others) {
+        bool sees_through = false;
+        agreeing += Agrees(j, point, &sees_through);
+        against += sees_through;
+      }
+      if (agreeing >= options_.least_agreeing && against < agreeing) *depths.At(x, y) = depth;
     }
   }
   return depths;

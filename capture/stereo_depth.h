@@ -15,7 +15,7 @@ struct StereoOptions {
   int neighbors = 5;         // views that a view is compared with, at most ...
   double least_angle = 8.0;  // ... whose directions to the object differ by these angles, deg
   double best_angle = 22.0;
-  double most_angle = 42.0;
+  double most_angle = 60.0;
   int blur_radius = 8;       // pixels, of the mean that is subtracted from the colours
   double agreement = 0.008;  // diagonals: depths of two views that differ by less agree
   int least_agreeing = 2;    // other views that must agree

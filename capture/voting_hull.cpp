@@ -40,9 +40,8 @@ class ConeVote {
 
 }  // namespace
 
-geometry::ScalarGrid VotingHullField(const std::vector<HullVote>& votes,
-                                     const Eigen::AlignedBox3d& box,
-                                     const VotingHullOptions& options) {
+core::TriangleMesh VotingHull(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
+                              const VotingHullOptions& options) {
   if (options.cells < 8 || box.isEmpty()) throw core::Error("the grid is empty", "visual hull");
   const std::vector<ConeVote> cones(votes.begin(), votes.end());
   geometry::ScalarGrid field;
@@ -70,13 +69,7 @@ geometry::ScalarGrid VotingHullField(const std::vector<HullVote>& votes,
       }
     }
   });
-  return field;
-}
-
-core::TriangleMesh VotingHull(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
-                              const VotingHullOptions& options) {
-  const core::TriangleMesh hull =
-      geometry::ExtractIsosurface(VotingHullField(votes, box, options), 0.0f);
+  const core::TriangleMesh hull = geometry::ExtractIsosurface(field, 0.0f);
   return hull.empty() ? hull : asset_lift::LargeComponents(hull);
 }
 

@@ -6,7 +6,6 @@
 
 #include "asset_lift/camera/observed_view.h"
 #include "core/mesh.h"
-#include "geometry/isosurface.h"
 
 namespace simwright::capture {
 
@@ -22,12 +21,6 @@ struct VotingHullOptions {
   // Other planes on which the object stood: nothing is on their negative side.
   std::vector<Eigen::Hyperplane<double, 3>> planes = {};
 };
-
-// Returns the signed distance (m, negative inside) of the hull that VotingHull extracts, at the
-// nodes of a grid over `box`. Throws as VotingHull.
-geometry::ScalarGrid VotingHullField(const std::vector<HullVote>& votes,
-                                     const Eigen::AlignedBox3d& box,
-                                     const VotingHullOptions& options);
 
 // Returns the points of `box` (world, m) that every vote admits: a visual hull that a few wrong
 // masks do not cut. Closed, oriented, flat on the floor; components under a hundredth of the

@@ -1,18 +1,19 @@
 // Measures the reconstruction from photos on a mat: objects that no training used are rendered on a
 // mat from an orbit, with lens distortion, noise and JPEG compression, and reconstructed.
 //   bench_capture_quality [--objects N] [--photos N] [--width N] [--only NAME] [--hull] [--develop]
-//                         [--photos-folder DIR [--render]] [--dump DIR]
+//                         [--photos-folder DIR [--render]] [--dump DIR] [--no-stereo]
 // Objects: pieces of the list held_out.txt and library kinds of seeds from 9101 on, alternating,
 // scaled down where they do not fit on A4. --develop takes pieces of other catalogues and other
 // seeds (7001 on): settings are chosen on these. --photos-folder keeps the rendered photos,
-// --render stops there; --dump writes masks and meshes; --hull stops after the visual hull.
-// Columns: the Chamfer distance (mean of both mean distances between the outer surfaces, in percent
-// of the truth's diagonal, without any alignment: the mat's frame is the truth's) of the hull, of
-// the fit's start and of the fitted mesh; the size's error (percent of the longest side); the
-// cameras' position error (percent of the distance); the reprojection error (pixels); masks' IoU
-// (mean, least); the share of the object's pixels whose depth stereo found (percent), the median
-// and the ninth decile of its error (percent of the diagonal); seconds to the hull, for the start,
-// all.
+// --render stops there; --dump writes masks and meshes; --hull stops after the fit's start,
+// --no-stereo leaves out its stereo. Columns: the Chamfer
+// distance (mean of both mean distances between the outer surfaces, in percent of the truth's
+// diagonal, without any alignment: the mat's frame is the truth's) of the hull, of the start
+// without stereo, of the start and of the fitted mesh; the size's error (percent of the longest
+// side); the cameras' position error (percent of the distance); the reprojection error (pixels);
+// masks' IoU (mean, least); the share of the object's pixels whose depth stereo found (percent),
+// the median and the ninth decile of its error (percent of the diagonal); seconds to the hull, for
+// the start, all.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -48,7 +49,7 @@ constexpr double kLargestSide = 0.13, kLargestHeight = 0.17;  // m, of objects o
 struct Settings {
   int objects = 20, photos = 24, width = 1600;
   std::string only;
-  bool hull_only = false, develop = false, render_only = false;
+  bool hull_only = false, develop = false, render_only = false, no_stereo = false;
   fs::path photos_folder, dump;
 };
 
@@ -83,7 +84,7 @@ std::vector<CatalogueObject> HeldOutPieces() {
 std::vector<CatalogueObject> DevelopmentPieces() {
   std::vector<CatalogueObject> pieces;
   for (const char* catalogue : {"BlendSwap-CC-0.sh3f", "Scopia.sh3f"}) {
-    constexpr int kMost = 40;
+    constexpr int kMost = 10;
     for (CatalogueObject& piece : HouseholdObjects({fs::path(kFurniture) / catalogue}, kMost)) {
       pieces.push_back(std::move(piece));
     }
@@ -251,7 +252,8 @@ double Measure(const CapturedObject& object, const Settings& settings) {
   const MaskScore masks = MaskIou(capture, object.mesh.mesh);
   const double hull = ChamferPercent(object.mesh.mesh, capture.hull);
   if (!settings.dump.empty()) Dump(settings.dump, object, capture);
-  const capture::CaptureLiftOptions lift;
+  capture::CaptureLiftOptions lift;
+  lift.start.use_stereo = !settings.no_stereo;
   const double before_start = seconds();
   const capture::StartShape first =
       capture::MakeStartShape(capture, lift.fit_side, lift.start, &progress);
@@ -275,7 +277,8 @@ double Measure(const CapturedObject& object, const Settings& settings) {
     }
   }
   std::printf(
-      "%-22s %6.2f %6.2f %6.2f %6.2f %6.2f %6.2f %6.3f %6.3f %6.1f %6.2f %6.2f %6.1f %6.1f %6.1f\n",
+      "%-22s %6.2f %6.2f %6.2f %6.2f %6.2f %6.2f %6.3f %6.3f %6.1f %6.2f %6.2f %6.1f %6.1f "
+      "%6.1f\n",
       object.name.c_str(), hull, started, fitted, size, PositionError(capture, poses),
       capture.calibration.error, masks.mean, masks.least, 100.0 * first.depth_share, depths.median,
       depths.ninth_decile, hull_seconds, start_seconds, all_seconds);
@@ -287,10 +290,11 @@ Settings ParseArguments(int count, char** arguments) {
   Settings settings;
   for (int i = 1; i < count; ++i) {
     const std::string flag = arguments[i];
-    bool* given = flag == "--hull"      ? &settings.hull_only
-                  : flag == "--develop" ? &settings.develop
-                  : flag == "--render"  ? &settings.render_only
-                                        : nullptr;
+    bool* given = flag == "--hull"        ? &settings.hull_only
+                  : flag == "--develop"   ? &settings.develop
+                  : flag == "--render"    ? &settings.render_only
+                  : flag == "--no-stereo" ? &settings.no_stereo
+                                          : nullptr;
     if (given != nullptr) {
       *given = true;
       continue;

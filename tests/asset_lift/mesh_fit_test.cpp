@@ -160,6 +160,17 @@ TEST(ViewLoss, DerivativeMatchesDifferences) {
   check(&picture.depth, gradient.depth, middle);
   check(&picture.mask, gradient.mask, 14);
   EXPECT_NE(gradient.depth.values[middle], 0.0f);
+  // A depth that is wrong by more than the tolerance counts linearly.
+  const float slope = gradient.depth.values[middle];
+  picture.depth.values[middle] = target.depth.values[middle] + 0.02f;
+  weights.depth_tolerance = 0.005;
+  ViewLoss(target, picture, weights, &gradient);
+  check(&picture.depth, gradient.depth, middle);
+  EXPECT_NE(gradient.depth.values[middle], slope);
+  picture.depth.values[middle] = target.depth.values[middle] + 0.04f;
+  render::DifferentiableBuffers farther;
+  ViewLoss(target, picture, weights, &farther);
+  EXPECT_FLOAT_EQ(farther.depth.values[middle], gradient.depth.values[middle]);
 }
 
 TEST(CrossingRepair, AFoldIsSmoothedAway) {
