@@ -109,7 +109,7 @@ class PatchMatch {
   std::vector<Warp> warps_;
   std::vector<PatchPlane> planes_;
   std::vector<float> costs_;  // scratch, one per neighbour
-  // The window of the pixel in work; windows are taken anew for each pixel of a sweep.
+  // The window that TakeWindow took last.
   std::vector<float> window_;
   std::vector<std::uint8_t> counts_;
   int used_ = 0;
