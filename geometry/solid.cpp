@@ -9,9 +9,11 @@
 #include "core/progress.h"
 #include "geometry/alpha_wrap.h"
 #include "geometry/cluster_vertices.h"
+#include "geometry/manifold_split.h"
 #include "geometry/mesh_validity.h"
 #include "geometry/nested_components.h"
 #include "geometry/occlusion_sampling.h"
+#include "geometry/self_intersection_smoothing.h"
 #include "geometry/simplify.h"
 #include "geometry/surface_distance.h"
 #include "geometry/surface_wrap.h"
@@ -104,6 +106,76 @@ bool TryUnion(const TriangleMesh& welded, double diagonal, const SolidOptions& o
     Add(solid, "solid-parts-joined", Severity::kInfo,
         std::to_string(count) + " closed parts that intersect were joined into one surface", count);
     solid->mesh = std::move(mesh);
+    solid->method = SolidMethod::kRepaired;
+    return true;
+  }
+  return false;
+}
+
+// Lengths of repairs, as shares of the tolerance: how far smoothing moves a vertex, and the error
+// of simplification, root mean square and at most. Walls may be as thin as the tolerance.
+constexpr double kSmoothedShare = 0.3, kThinnedShare = 0.06, kThinnedMost = 0.2;
+constexpr int kSmoothingRounds = 6;
+constexpr std::size_t kMostRepaired = 300000;  // faces: more take longer than a grid
+
+// Mends closed components where they intersect or touch themselves, as noise and voxels leave them:
+// parts what touches along edges, smooths what intersects. Returns false if a component is open or
+// is not mended.
+bool MendClosed(double move, TriangleMesh* mesh, int* intersections) {
+  if (mesh->empty() || !OrientConsistently(mesh)) return false;
+  MeshValidity state = Examine(*mesh, 1);
+  if (!state.closed) return false;
+  // Components that touch are parted; others may intersect each other, and are united.
+  const bool touching = !state.manifold;
+  if (touching) {
+    *mesh = SplitNonManifold(*mesh);
+    state = Examine(*mesh, 1);
+    if (!state.closed || !state.manifold) return false;
+  }
+  *intersections = state.self_intersections;
+  SelfIntersectionSmoothing smoothing;
+  smoothing.rounds = kSmoothingRounds;
+  smoothing.max_move = move;
+  smoothing.within_components = !touching;
+  smoothing.replaces_faces = true;
+  if (!SmoothSelfIntersections(mesh, smoothing)) return false;
+  *mesh = WithoutUnusedVertices(*mesh);
+  return true;
+}
+
+// Repairs a closed surface without a grid, which keeps thin walls: mends it, joins its components,
+// and simplifies it if it has too many faces.
+bool TryRepair(const TriangleMesh& welded, double diagonal, const SolidOptions& options,
+               Solid* solid) {
+  if (welded.triangles.size() > kMostRepaired) return false;
+  const double tolerated = options.tolerance_ratio * diagonal;
+  for (const double tolerance : {0.0, 1e-6, 1e-4}) {
+    TriangleMesh mesh = tolerance > 0.0 ? Weld(welded, tolerance * diagonal) : welded;
+    int intersections = 0, shells = 0;
+    if (!MendClosed(kSmoothedShare * tolerated, &mesh, &intersections)) continue;
+    TriangleMesh whole = mesh;
+    if (!KeepOuterShells(&whole, &shells)) whole = UnionOfComponents(mesh, &shells);
+    if (whole.empty() || !EnclosesVolume(whole, diagonal)) continue;
+    const std::size_t faces = whole.triangles.size();
+    if (static_cast<double>(faces) > 10.0 * options.face_budget) {
+      whole = Simplify(whole,
+                       {options.face_budget, kThinnedShare * tolerated, kThinnedMost * tolerated});
+      if (static_cast<double>(whole.triangles.size()) > 10.0 * options.face_budget ||
+          !Examine(whole, 1).IsSolid()) {
+        return false;
+      }
+      Add(solid, "solid-simplified", Severity::kInfo,
+          std::to_string(faces) + " faces were simplified to " +
+              std::to_string(whole.triangles.size()),
+          static_cast<double>(whole.triangles.size()));
+    }
+    if (intersections > 0) {
+      Add(solid, "solid-smoothed", Severity::kInfo,
+          "the surface was smoothed where it intersects itself, by at most " +
+              std::to_string(1000.0 * kSmoothedShare * tolerated) + " mm",
+          kSmoothedShare * tolerated);
+    }
+    solid->mesh = std::move(whole);
     solid->method = SolidMethod::kRepaired;
     return true;
   }
@@ -294,7 +366,8 @@ Solid MakeSolid(const TriangleMesh& visual, const SolidOptions& options) {
   }
   Solid solid;
   if (!TryUnchanged(visual, welded, diagonal, options, &solid) &&
-      !TryUnion(welded, diagonal, options, &solid)) {
+      !TryUnion(welded, diagonal, options, &solid) &&
+      !TryRepair(welded, diagonal, options, &solid)) {
     WrapSolid(welded, bounds.center(), diagonal, options, &solid);
   }
   return solid;

@@ -5,12 +5,12 @@
 #include <numeric>
 
 #include "asset_lift/mesh_fit/mesh_descent.h"
-#include "asset_lift/mesh_fit/self_intersection_smoothing.h"
 #include "asset_lift/multi_view/view_consistency.h"
 #include "asset_lift/multi_view/visual_hull.h"
 #include "core/error.h"
 #include "geometry/mesh_validity.h"
 #include "geometry/remesh.h"
+#include "geometry/self_intersection_smoothing.h"
 #include "geometry/solid.h"
 #include "geometry/triangle_tree.h"
 #include "geometry/weld.h"
@@ -108,7 +108,7 @@ class Fit {
                          std::pow(options_.last_edge_ratio / options_.first_edge_ratio, t);
     remesh.feature_angle_deg = options_.feature_angle_deg;
     try {
-      SmoothSelfIntersections(&mesh_, 6);
+      geometry::SmoothSelfIntersections(&mesh_, {.rounds = 6});
       const core::TriangleMesh even = geometry::RemeshIsotropic(mesh_, remesh);
       if (even.empty()) throw core::Error("the result is empty");
       colors_ = ColorsAt(even.vertices, mesh_, colors_);
@@ -180,7 +180,7 @@ class Fit {
   void MakeValid() {
     if (geometry::Examine(mesh_, 1).IsSolid()) return;
     core::TriangleMesh smoothed = mesh_;
-    SmoothSelfIntersections(&smoothed, 15);
+    geometry::SmoothSelfIntersections(&smoothed, {.rounds = 15});
     if (geometry::Examine(smoothed, 1).IsSolid()) {
       Report("crossings-smoothed", core::Severity::kInfo,
              "the surface intersected itself: smoothed locally");

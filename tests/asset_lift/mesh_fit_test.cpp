@@ -8,10 +8,10 @@
 
 #include "asset_lift/mesh_fit/large_steps.h"
 #include "asset_lift/mesh_fit/normal_penalty.h"
-#include "asset_lift/mesh_fit/self_intersection_smoothing.h"
 #include "asset_lift/mesh_fit/view_loss.h"
 #include "core/error.h"
 #include "geometry/mesh_validity.h"
+#include "geometry/self_intersection_smoothing.h"
 #include "geometry/surface_distance.h"
 #include "tests/asset_lift/fit_scene.h"
 
@@ -177,7 +177,7 @@ TEST(CrossingRepair, AFoldIsSmoothedAway) {
   core::TriangleMesh mesh = Sphere(0.1);
   mesh.vertices[50] = -1.1 * mesh.vertices[50];  // through the other side
   ASSERT_GT(geometry::Examine(mesh).self_intersections, 0);
-  EXPECT_TRUE(SmoothSelfIntersections(&mesh, 15));
+  EXPECT_TRUE(geometry::SmoothSelfIntersections(&mesh, {.rounds = 15}));
   EXPECT_TRUE(geometry::Examine(mesh).IsSolid());
 }
 
