@@ -8,6 +8,7 @@
 
 #include "geometry/hole_filling.h"
 #include "geometry/mesh_validity.h"
+#include "geometry/triangle_tree.h"
 #include "importers/face_selection.h"
 #include "importers/welded_surface.h"
 
@@ -27,6 +28,9 @@ constexpr double kClosedWidth = 2e-5;       // of cracks through which no line o
 constexpr double kCrackWidth = 0.0025;      // narrower holes are cracks, of any length
 constexpr double kVertical = 0.95;          // cosine of a normal with the vertical
 constexpr std::size_t kMostCorners = 4000;  // of a loop that need not be flat
+constexpr double kFragmentReach = 0.004;    // of the largest piece's diagonal, from its patches
+constexpr double kFragmentArea = 0.02;      // of the largest piece's area
+constexpr double kCrumbArea = 1e-4;         // ... of pieces that need not lie on a patch
 constexpr double kMostTriangles = 0.3;      // holes per face, of a mesh whose faces share edges
 
 enum class HoleKind { kCrack, kSmall, kBottom, kFlatFace, kOpen };
@@ -53,18 +57,32 @@ class HoleCloser {
     if (count > 1 + kMostTriangles * static_cast<double>(piece.size())) return;
     pieces_ = DescribePieces(welded_.mesh, piece, count);
     FindHoles(piece);
-    std::vector<char> open(pieces_.size(), 0);
-    for (const Hole& hole : holes_) open[Piece(hole)] |= hole.kind == HoleKind::kOpen;
+    if (pieces_.empty()) return;
+    const auto largest = std::max_element(
+        pieces_.begin(), pieces_.end(),
+        [](const SurfacePiece& a, const SurfacePiece& b) { return a.area < b.area; });
+    const int main = static_cast<int>(largest - pieces_.begin());
+    ClosePiece(main);
+    const std::vector<char> fragment = FragmentsIn(piece, main);
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      if (!open[p]) CloseFlatHoles(static_cast<int>(p));
+      if (static_cast<int>(p) != main && !fragment[p]) ClosePiece(static_cast<int>(p));
     }
-    for (const Hole& hole : holes_) {
-      if (open[Piece(hole)]) {
-        if (hole.kind == HoleKind::kOpen) widest_open = std::max(widest_open, ShareOf(hole));
-      } else if (hole.kind == HoleKind::kSmall) {
-        AddFaces(hole, geometry::FillLoop(welded_.mesh.vertices, hole.loop));
-      }
+    fragments = static_cast<int>(std::count(fragment.begin(), fragment.end(), 1));
+    if (fragments == 0) return;
+    gone_.resize(piece.size());
+    for (std::size_t t = 0; t < piece.size(); ++t) {
+      gone_[t] = fragment[static_cast<std::size_t>(piece[t])];
     }
+  }
+
+  // (faces of the source) 1 for the faces of pieces that lie in a closed hole of the largest piece.
+  std::vector<char> FragmentFaces() const {
+    std::vector<char> faces(welded_.face_of.size(), 0);
+    for (std::size_t f = 0; f < faces.size() && !gone_.empty(); ++f) {
+      const int w = welded_.face_of[f];
+      faces[f] = w >= 0 && gone_[static_cast<std::size_t>(w)];
+    }
+    return faces;
   }
 
   // (faces of the source) 1 where a face of a closed surface faces inward.
@@ -89,6 +107,7 @@ class HoleCloser {
     int like = 0;             // a welded face beside it
   };
   std::vector<Patch> patches;
+  int fragments = 0;         // pieces that lie in a closed hole
   int closed = 0;            // holes
   double widest = 0.0;       // of the closed ones, share of the diagonal
   double widest_open = 0.0;  // of those left open
@@ -134,6 +153,53 @@ class HoleCloser {
     return flat && closes_flat_ ? HoleKind::kFlatFace : HoleKind::kOpen;
   }
 
+  // Closes the holes of a piece that has no other ones than those that can be closed.
+  void ClosePiece(int piece) {
+    bool open = false;
+    for (const Hole& hole : holes_) {
+      if (hole.piece != piece || hole.kind != HoleKind::kOpen) continue;
+      open = true;
+      widest_open = std::max(widest_open, ShareOf(hole));
+    }
+    if (open) return;
+    CloseFlatHoles(piece);
+    for (const Hole& hole : holes_) {
+      if (hole.piece != piece || hole.kind != HoleKind::kSmall) continue;
+      AddFaces(hole, geometry::FillLoop(welded_.mesh.vertices, hole.loop));
+    }
+  }
+
+  // Returns 1 for the small open pieces that lie on the patches of the largest one, and for crumbs
+  // anywhere on it: what is left of the surface that was torn out there.
+  std::vector<char> FragmentsIn(const std::vector<int>& piece, int main) const {
+    std::vector<char> fragment(pieces_.size(), 0);
+    if (patches.empty()) return fragment;
+    core::TriangleMesh closing;
+    closing.vertices = welded_.mesh.vertices;
+    for (const Patch& patch : patches) closing.triangles.push_back(patch.corners);
+    const geometry::TriangleTree tree(closing);
+    for (std::size_t t = 0; t < piece.size(); ++t) {
+      if (piece[t] == main) closing.triangles.push_back(welded_.mesh.triangles[t]);
+    }
+    const geometry::TriangleTree whole_tree(closing);
+    const SurfacePiece& whole = pieces_[static_cast<std::size_t>(main)];
+    const double reach = kFragmentReach * whole.box.diagonal().norm();
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      fragment[p] = static_cast<int>(p) != main && pieces_[p].open_edges > 0 &&
+                    pieces_[p].area < kFragmentArea * whole.area;
+    }
+    for (std::size_t t = 0; t < piece.size(); ++t) {
+      char& lies = fragment[static_cast<std::size_t>(piece[t])];
+      for (int k = 0; k < 3 && lies; ++k) {
+        const bool crumb =
+            pieces_[static_cast<std::size_t>(piece[t])].area < kCrumbArea * whole.area;
+        lies = (crumb ? whole_tree : tree)
+                   .Within(welded_.mesh.vertices[welded_.mesh.triangles[t][k]], reach);
+      }
+    }
+    return fragment;
+  }
+
   // Closes a piece's bottom, all of whose loops are in one plane, and its other flat holes.
   void CloseFlatHoles(int piece) {
     std::vector<BoundaryLoop> bottom;
@@ -171,6 +237,7 @@ class HoleCloser {
   std::vector<SurfacePiece> pieces_;
   std::vector<Hole> holes_;
   std::vector<int> face_at_;  // a face at each vertex
+  std::vector<char> gone_;    // (welded faces) of fragments; empty: none
 };
 
 // Appends the patches, whose vertices are copies: the solid welds them.
@@ -216,7 +283,17 @@ void CloseHoles(const physics_params::Category& category, const std::string& whe
                          static_cast<double>(turns)});
   }
   if (closer.closed > 0) {
+    std::vector<char> kept = closer.FragmentFaces();
+    for (char& face : kept) face = !face;
     AddPatches(closer, mesh);
+    if (closer.fragments > 0) {
+      kept.resize(mesh->mesh.triangles.size(), 1);
+      KeepFaces(kept, mesh);
+      findings->push_back(
+          {"mesh-specks", Severity::kWarning, where,
+           std::to_string(closer.fragments) + " fragments that lay in a closed hole were removed",
+           static_cast<double>(closer.fragments), "look at preview.png"});
+    }
     findings->push_back({"mesh-holes-closed", Severity::kWarning, where,
                          std::to_string(closer.closed) +
                              (closer.closed == 1 ? " hole was closed; it was "

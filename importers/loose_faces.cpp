@@ -65,6 +65,12 @@ class LooseFaces {
     MarkClosed();
   }
 
+  // Only finds inner shells.
+  void FindShells() {
+    if (Split(true)) RemoveInnerShells();
+    MarkClosed();
+  }
+
   // Returns 0 for the faces of the source to remove.
   std::vector<char> KeptFaces(const core::TexturedMesh& source) {
     std::vector<char> kept(welded_.face_of.size(), 1);
@@ -266,7 +272,25 @@ class LooseFaces {
   double diagonal_ = 0.0;
 };
 
+void SayInnerShells(const std::string& where, int count, core::Findings* findings) {
+  findings->push_back(
+      {"mesh-inner-shells", Severity::kInfo, where,
+       Counted(count, "closed shell is", "closed shells are") +
+           " reached by no line of sight from outside: removed",
+       static_cast<double>(count),
+       "whether the object is full or hollow follows from its category, --mass and --density"});
+}
+
 }  // namespace
+
+void RemoveInnerShells(const std::string& where, core::TexturedMesh* mesh,
+                       core::Findings* findings) {
+  LooseFaces loose(*mesh);
+  loose.FindShells();
+  if (loose.inner_shells == 0) return;
+  KeepFaces(loose.KeptFaces(*mesh), mesh);
+  SayInnerShells(where, loose.inner_shells, findings);
+}
 
 void RemoveLooseFaces(const std::string& where, core::TexturedMesh* mesh,
                       core::Findings* findings) {
@@ -289,10 +313,7 @@ void RemoveLooseFaces(const std::string& where, core::TexturedMesh* mesh,
   add("mesh-specks", Severity::kWarning, loose.specks,
       Counted(loose.specks, "speck touches nothing: removed", "specks touch nothing: removed"),
       "what belongs to the object can be connected to it in a modeller");
-  add("mesh-inner-shells", Severity::kInfo, loose.inner_shells,
-      Counted(loose.inner_shells, "closed shell is", "closed shells are") +
-          " reached by no line of sight from outside: removed",
-      "whether the object is full or hollow follows from its category, --mass and --density");
+  if (loose.inner_shells > 0) SayInnerShells(where, loose.inner_shells, findings);
   add("mesh-floating-parts", Severity::kWarning, loose.floating,
       Counted(loose.floating, "part floats", "parts float") +
           " free of the rest: kept as part of one rigid body",

@@ -19,4 +19,8 @@ namespace simwright::importers {
 // A mesh whose faces hardly share edges is left as it is.
 void RemoveLooseFaces(const std::string& where, core::TexturedMesh* mesh, core::Findings* findings);
 
+// Removes inner shells alone: those that closed only when their holes were closed.
+void RemoveInnerShells(const std::string& where, core::TexturedMesh* mesh,
+                       core::Findings* findings);
+
 }  // namespace simwright::importers

@@ -13,7 +13,9 @@
 #include "importers/file_scale.h"
 #include "importers/hole_closing.h"
 #include "importers/loose_faces.h"
+#include "importers/surface_noise.h"
 #include "importers/t_junctions.h"
+#include "importers/torn_bottom.h"
 #include "tests/importers/damaged/damaged_corpus.h"
 #include "tests/importers/damaged/specimen_file.h"
 #include "tests/workflows/program.h"
@@ -118,6 +120,78 @@ TEST(HoleClosing, SmallHolesAndTheBottomAreClosed) {
   EXPECT_EQ(FigureOf(findings, "mesh-open"), 0);
   EXPECT_TRUE(geometry::Examine(geometry::Weld(mesh.mesh, 0.0)).IsSolid());
   EXPECT_NEAR(VolumeOf(mesh), 0.008, 1e-9);
+}
+
+// Crumbs of a torn bottom that lie in the hole are not closed as sheets of their own.
+TEST(HoleClosing, FragmentsInAClosedHoleAreRemoved) {
+  core::TexturedMesh mesh = Box({0.2, 0.2, 0.2});
+  Open(
+      [](const Eigen::Vector3d& m) {
+        return m.z() < -0.0999 && (m.head<2>().norm() > 0.03 || m.x() < 0.0);
+      },
+      &mesh);
+  core::Findings findings;
+  CloseHoles(CategoryNamed("box"), "a.glb", &mesh, &findings);
+  EXPECT_EQ(FigureOf(findings, "mesh-open"), 0);
+  EXPECT_GE(FigureOf(findings, "mesh-specks"), 1);
+  EXPECT_TRUE(geometry::Examine(geometry::Weld(mesh.mesh, 0.0)).IsSolid());
+  EXPECT_NEAR(VolumeOf(mesh), 0.008, 1e-9);
+}
+
+TEST(HoleClosing, ATornBottomIsReplaced) {
+  core::TexturedMesh mesh;
+  mesh.mesh = damaged::Subdivided(assets::BoxMesh({0.2, 0.2, 0.2}), 0.012);
+  int face = 0;
+  Open([&](const Eigen::Vector3d& m) { return m.z() < -0.0999 && ++face % 3 != 0; }, &mesh);
+  core::Findings findings;
+  RemoveTornBottom("a.glb", &mesh, &findings);
+  EXPECT_GE(FigureOf(findings, "mesh-torn-bottom"), 12);
+  CloseHoles(CategoryNamed("box"), "a.glb", &mesh, &findings);
+  EXPECT_EQ(FigureOf(findings, "mesh-holes-closed"), 0);  // its figure is a share under 1
+  EXPECT_TRUE(geometry::Examine(geometry::Weld(mesh.mesh, 0.0)).IsSolid());
+  EXPECT_NEAR(VolumeOf(mesh), 0.008, 1e-9);
+  // A sound bottom with two holes stays.
+  core::TexturedMesh sound = Box({0.2, 0.2, 0.2});
+  const std::size_t faces = sound.mesh.triangles.size();
+  findings.clear();
+  RemoveTornBottom("a.glb", &sound, &findings);
+  EXPECT_TRUE(findings.empty());
+  EXPECT_EQ(sound.mesh.triangles.size(), faces);
+}
+
+// A void with a hole is found once the hole is closed.
+TEST(LooseFaces, ShellsThatWereOpenAreRemovedOnceTheyAreClosed) {
+  core::TexturedMesh mesh = Box({0.2, 0.2, 0.2});
+  core::TriangleMesh inner = damaged::Subdivided(assets::BoxMesh({0.15, 0.15, 0.15}), 0.03);
+  for (Eigen::Vector3i& t : inner.triangles) std::swap(t[0], t[1]);
+  inner.triangles.pop_back();
+  const std::size_t faces = mesh.mesh.triangles.size();
+  core::Append(inner, &mesh.mesh);
+  core::Findings findings;
+  RemoveLooseFaces("a.glb", &mesh, &findings);
+  EXPECT_EQ(FigureOf(findings, "mesh-inner-shells"), 0);
+  CloseHoles(CategoryNamed("box"), "a.glb", &mesh, &findings);
+  RemoveInnerShells("a.glb", &mesh, &findings);
+  EXPECT_EQ(FigureOf(findings, "mesh-inner-shells"), 1);
+  EXPECT_EQ(mesh.mesh.triangles.size(), faces);
+}
+
+TEST(SurfaceNoise, IsMeasuredAndCurvatureIsNot) {
+  damaged::Specimen ball = damaged::SoundSpecimen("ball", 1);
+  ball.mesh = damaged::Subdivided(ball.mesh, 0.03 * ball.sides.x());
+  const double smooth = SurfaceNoise(ball.mesh);
+  EXPECT_LT(smooth, 2e-4 * ball.sides.x());
+  EXPECT_EQ(SurfaceNoise(Box({0.2, 0.1, 0.05}).mesh), 0.0);
+  const double sigma = 0.003 * ball.sides.x();
+  core::Rng rng = core::StreamRng(1, 1);
+  for (Eigen::Vector3d& v : ball.mesh.vertices) {
+    for (int k = 0; k < 3; ++k) v[k] += sigma * core::Normal(rng);
+  }
+  EXPECT_NEAR(SurfaceNoise(ball.mesh) / sigma, 1.0, 0.35);
+  core::Findings findings;
+  WarnOfNoise("a.glb", ball.mesh, &findings);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].code, "mesh-noise");
 }
 
 // The ring on which a bowl stands is closed as a ring: the recess within it stays.

@@ -10,7 +10,9 @@
 #include "importers/link_shapes.h"
 #include "importers/loose_faces.h"
 #include "importers/rigid_urdf.h"
+#include "importers/surface_noise.h"
 #include "importers/t_junctions.h"
+#include "importers/torn_bottom.h"
 #include "importers/up_axis.h"
 
 namespace simwright::workflows {
@@ -107,9 +109,17 @@ ItemMesh ReadInWorld(const fs::path& mesh_path, const assets::UrdfModel* urdf,
   world_from_file.linear() = options.unit * assets::ZUpRotation(up);
   core::Transform(world_from_file, &mesh);
   core::Transform(world_from_file, &item.as_read.mesh);
-  if (urdf == nullptr) importers::CloseHoles(category, place, &item.visual, findings);
+  if (urdf == nullptr) {
+    importers::RemoveTornBottom(place, &item.visual, findings);
+    const std::size_t open = mesh.triangles.size();
+    importers::CloseHoles(category, place, &item.visual, findings);
+    if (mesh.triangles.size() != open) {
+      importers::RemoveInnerShells(place, &item.visual, findings);
+    }
+  }
   ScaleToMeantSize(mesh_path, urdf != nullptr, category, options, &mesh, findings);
   RequireSimulable(mesh, mesh_path);
+  if (urdf == nullptr) importers::WarnOfNoise(place, mesh, findings);
   return item;
 }
 
