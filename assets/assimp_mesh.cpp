@@ -113,6 +113,7 @@ class Collector {
     for (unsigned i = 0; i < scene_.mNumMaterials; ++i) ReadMaterial(*scene_.mMaterials[i], i);
     AddNode(*scene_.mRootNode, aiMatrix4x4(), 0);
     if (!any_uv_) raw_.mesh.corner_uvs.clear();
+    if (!states_look_) raw_.look = {};
     if (any_outside_) {
       findings_.Add(core::Severity::kInfo, "texture-wraps",
                     "a texture that its file clamps at its edges is repeated instead",
@@ -130,7 +131,10 @@ class Collector {
   };
 
   void ReadMaterial(const aiMaterial& source, unsigned index);
-  bool ReadObjMaterial(const std::string& name, core::Material* material, UvSource* uv);
+  bool ReadObjMaterial(const std::string& name, core::Material* material, PbrMaterial* look,
+                       UvSource* uv);
+  void ReadObjLook(const MtlMaterial& source, PbrMaterial* look);
+  int ReadMap(const MtlMap& map, bool grey);
   void ReadOwnMaterial(const aiMaterial& source, core::Material* material, UvSource* uv);
   int ReadTexture(const std::string& name);
   void AddNode(const aiNode& node, const aiMatrix4x4& parent, int depth);
@@ -145,10 +149,39 @@ class Collector {
   VertexIndexer vertices_;
   std::vector<UvSource> uv_of_;  // per material
   std::map<std::string, int> texture_of_;
-  bool any_uv_ = false, any_outside_ = false;
+  std::map<std::pair<std::string, int>, int> map_of_;  // (file, channel or -1) -> map or -1
+  bool any_uv_ = false, any_outside_ = false, states_look_ = false;
 };
 
-bool Collector::ReadObjMaterial(const std::string& name, core::Material* material, UvSource* uv) {
+int Collector::ReadMap(const MtlMap& map, bool grey) {
+  if (map.file.empty()) return -1;
+  const auto [entry, fresh] = map_of_.try_emplace({map.file, grey ? map.channel : -1}, -1);
+  core::Image image;
+  if (fresh && ReadTextureFile(folder_, map.file, &findings_, &image)) {
+    entry->second = static_cast<int>(raw_.look.images.size());
+    raw_.look.images.push_back(grey ? ChannelOf(image, map.channel) : WithoutAlpha(image));
+  }
+  return entry->second;
+}
+
+// Reads Pm, Pr, map_Pm, map_Pr and norm. A factor beside a map is 1 where it is left out or 0:
+// exporters state 0 for an input that the map replaces.
+void Collector::ReadObjLook(const MtlMaterial& source, PbrMaterial* look) {
+  look->metallic_map = ReadMap(source.metallic_map, true);
+  look->roughness_map = ReadMap(source.roughness_map, true);
+  look->normal_map = ReadMap(source.normal_map, false);
+  look->normal_scale = source.normal_map.strength;
+  const auto factor = [](const std::optional<float>& stated, int map, float otherwise) {
+    if (map < 0) return stated.value_or(otherwise);
+    return stated.value_or(0.0f) > 0.0f ? *stated : 1.0f;
+  };
+  look->metallic = factor(source.metallic, look->metallic_map, 0.0f);
+  look->roughness = factor(source.roughness, look->roughness_map, 1.0f);
+  states_look_ = states_look_ || source.metallic || source.roughness || look->HasMaps();
+}
+
+bool Collector::ReadObjMaterial(const std::string& name, core::Material* material,
+                                PbrMaterial* look, UvSource* uv) {
   if (obj_ == nullptr || name.size() < 2 || name[0] != 'm') return false;
   const size_t index = static_cast<size_t>(std::atoll(name.c_str() + 1));
   if (index >= obj_->materials.size() || name != "m" + std::to_string(index)) return false;
@@ -159,6 +192,7 @@ bool Collector::ReadObjMaterial(const std::string& name, core::Material* materia
   uv->scale = source.uv_scale;
   uv->offset = source.uv_offset;
   uv->clamp = source.clamp;
+  ReadObjLook(source, look);
   if (!source.texture.empty()) {
     material->texture = ReadTexture(source.texture);
     if (material->texture >= 0 && !source.has_diffuse) material->base_color.head<3>().setOnes();
@@ -188,10 +222,11 @@ void Collector::ReadOwnMaterial(const aiMaterial& source, core::Material* materi
 
 void Collector::ReadMaterial(const aiMaterial& source, unsigned index) {
   core::Material material;
+  PbrMaterial look;
   UvSource uv;
   aiString name;
   if (source.Get(AI_MATKEY_NAME, name) == AI_SUCCESS) material.name = name.C_Str();
-  if (!ReadObjMaterial(material.name, &material, &uv)) {
+  if (!ReadObjMaterial(material.name, &material, &look, &uv)) {
     if (obj_ == nullptr) ReadOwnMaterial(source, &material, &uv);
   }
   if (material.name.empty()) material.name = "material_" + std::to_string(index);
@@ -200,6 +235,7 @@ void Collector::ReadMaterial(const aiMaterial& source, unsigned index) {
     material.base_color.head<3>().setOnes();
   }
   raw_.mesh.materials.push_back(material);
+  raw_.look.materials.push_back(look);
   uv_of_.push_back(uv);
 }
 
@@ -262,6 +298,10 @@ void Collector::AddMesh(const aiMesh& mesh, const aiMatrix4x4& placed, const std
     for (const unsigned corner : corners) AddCorner(mesh, corner, uv);
   }
   any_uv_ = any_uv_ || mesh.HasTextureCoords(uv.channel);
+  if (!mesh.HasTextureCoords(uv.channel)) {
+    raw_.faces_without_uvs[static_cast<int>(mesh.mMaterialIndex)] +=
+        result.mesh.triangles.size() - before;
+  }
   if (result.mesh.triangles.size() > before) result.part_names.push_back(name);
 }
 

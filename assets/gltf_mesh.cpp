@@ -255,6 +255,7 @@ void GltfReader::AddPrimitive(const GltfPrimitive& primitive, const GltfMaterial
   }
   const bool mirrored = placed.linear().determinant() < 0.0;
   const size_t index = static_cast<size_t>(material.index);
+  const size_t before = mesh.mesh.triangles.size();
   const bool textured = mesh.materials[index].texture >= 0 || raw_.look.materials[index].HasMaps();
   for (size_t i = 0; i + 2 < primitive.triangles.size(); i += 3) {
     std::uint32_t corners[3] = {primitive.triangles[i], primitive.triangles[i + 1],
@@ -280,6 +281,9 @@ void GltfReader::AddPrimitive(const GltfPrimitive& primitive, const GltfMaterial
     }
   }
   any_uv_ = any_uv_ || (textured && !primitive.uvs.empty());
+  if (primitive.uvs.empty()) {
+    raw_.faces_without_uvs[material.index] += mesh.mesh.triangles.size() - before;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "assets/broken_faces.h"
 #include "assets/gltf_mesh.h"
 #include "assets/mesh_format.h"
+#include "assets/missing_uvs.h"
 #include "assets/ply_mesh.h"
 #include "assets/read_mesh.h"
 #include "assets/vertex_colors.h"
@@ -80,6 +81,7 @@ MeshFile ReadMeshFile(const fs::path& path) {
                       "export its surface: points and lines have none (convert a point cloud to a "
                       "mesh first, in MeshLab or CloudCompare)");
   }
+  DropTexturesWithoutUvs(&raw, &findings);
   DropBrokenFaces(&raw, &findings);
   const std::vector<core::Material> stated = raw.mesh.materials;
   ApplyVertexColors(&raw, &findings);

@@ -3,6 +3,7 @@
 #include <tinyxml2.h>
 
 #include "assets/model_writer.h"
+#include "assets/pbr_look.h"
 #include "assets/xml_element.h"
 
 namespace simwright::assets {
@@ -29,7 +30,8 @@ void VisualGeom(tinyxml2::XMLPrinter* printer, const Asset& asset, const MjcfNam
   if (IsTextured(asset)) {
     visual.Set("material", names.prefix + "_material");
   } else if (!asset.visual.materials.empty()) {
-    const Eigen::Vector4f& c = asset.visual.materials[0].base_color;
+    const auto main = static_cast<size_t>(MainMaterial(asset.visual));
+    const Eigen::Vector4f& c = asset.visual.materials[main].base_color;
     visual.Set("rgba", Numbers({c.x(), c.y(), c.z(), 1.0}));
   }
 }

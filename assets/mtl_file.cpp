@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace simwright::assets {
@@ -63,6 +64,8 @@ struct TextureStatement {
   std::string file;
   Eigen::Vector2f scale{1.0f, 1.0f}, offset{0.0f, 0.0f};
   bool clamp = false;
+  int channel = 0;
+  float strength = 1.0f;
   std::set<std::string> unread;
 };
 
@@ -87,10 +90,15 @@ TextureStatement ReadTextureStatement(std::string_view rest) {
     } else if (option == "-mm") {
       const std::vector<float> range = TakeNumbers(&ahead, 2);
       if (range != std::vector<float>{0.0f, 1.0f}) statement.unread.insert("-mm");
-    } else if (option == "-blendu" || option == "-blendv" || option == "-cc" ||
-               option == "-imfchan" || option == "-type") {
+    } else if (option == "-imfchan") {
+      const std::string channel = LowerKeyword(TakeMtlWord(&ahead));
+      statement.channel = channel == "g" ? 1 : channel == "b" ? 2 : 0;
+    } else if (option == "-bm") {
+      const std::vector<float> strength = TakeNumbers(&ahead, 1);
+      if (!strength.empty()) statement.strength = strength[0];
+    } else if (option == "-blendu" || option == "-blendv" || option == "-cc" || option == "-type") {
       TakeMtlWord(&ahead);
-    } else if (option == "-bm" || option == "-boost" || option == "-texres") {
+    } else if (option == "-boost" || option == "-texres") {
       TakeNumbers(&ahead, 1);
     } else {
       break;  // a file whose name begins with '-'
@@ -121,9 +129,8 @@ class MtlReader {
  private:
   void ReadStatement(const std::string& keyword, std::string_view rest) {
     static const std::set<std::string_view> kLook{
-        "map_bump", "bump",   "map_ks", "map_ke",      "map_d",    "map_ns",
-        "disp",     "decal",  "refl",   "norm",        "map_kn",   "map_pr",
-        "map_pm",   "map_ps", "map_tr", "map_opacity", "map_norm", "map_rma"};
+        "map_bump", "bump", "map_ks", "map_ke", "map_d",  "map_ns",      "disp",
+        "decal",    "refl", "map_kn", "map_ps", "map_tr", "map_opacity", "map_rma"};
     if (keyword == "kd") {
       ReadDiffuse(rest);
     } else if (keyword == "d" || keyword == "tr") {
@@ -132,6 +139,14 @@ class MtlReader {
       if (!value.empty()) (keyword == "d" ? dissolve_ : transparency_) = value[0];
     } else if (keyword == "map_kd" || keyword == "map_ka") {
       (keyword == "map_kd" ? diffuse_map_ : ambient_map_) = ReadTextureStatement(rest);
+    } else if (keyword == "pm" || keyword == "pr") {
+      const std::vector<float> value = TakeNumbers(&rest, 1);
+      if (value.empty()) return;
+      auto& share = keyword == "pm" ? current_->metallic : current_->roughness;
+      share = std::clamp(value[0], 0.0f, 1.0f);
+    } else if (keyword == "map_pm" || keyword == "map_pr" || keyword == "norm" ||
+               keyword == "map_norm") {
+      look_maps_[keyword == "map_norm" ? "norm" : keyword] = ReadTextureStatement(rest);
     } else if (kLook.contains(keyword)) {
       current_->unread.insert(keyword);
     }
@@ -168,6 +183,7 @@ class MtlReader {
       material.clamp = map->clamp;
       material.unread.insert(map->unread.begin(), map->unread.end());
     }
+    PlaceLookMaps(&material);
     const auto same = std::find_if(materials_.begin(), materials_.end(),
                                    [&](const auto& m) { return m.name == material.name; });
     if (same != materials_.end()) {
@@ -180,12 +196,40 @@ class MtlReader {
     transparency_.reset();
     diffuse_map_.reset();
     ambient_map_.reset();
+    look_maps_.clear();
+  }
+
+  // Takes the maps that lie as the texture does, or without one as the first map: a face has one
+  // set of coordinates. The others are named as unread.
+  void PlaceLookMaps(MtlMaterial* material) {
+    bool placed = !material->texture.empty();
+    for (const auto& [keyword, statement] : look_maps_) {
+      if (statement.file.empty()) continue;
+      const bool same =
+          statement.scale == material->uv_scale && statement.offset == material->uv_offset;
+      if (placed && !same) {
+        material->unread.insert(keyword);
+        continue;
+      }
+      if (!placed) {
+        material->uv_scale = statement.scale;
+        material->uv_offset = statement.offset;
+        material->clamp = statement.clamp;
+        placed = true;
+      }
+      MtlMap& map = keyword == "map_pm"   ? material->metallic_map
+                    : keyword == "map_pr" ? material->roughness_map
+                                          : material->normal_map;
+      map = {statement.file, statement.channel, statement.strength};
+      material->unread.insert(statement.unread.begin(), statement.unread.end());
+    }
   }
 
   std::vector<MtlMaterial> materials_;
   std::optional<MtlMaterial> current_;
   std::optional<float> dissolve_, transparency_;
   std::optional<TextureStatement> diffuse_map_, ambient_map_;
+  std::map<std::string, TextureStatement> look_maps_;  // map_pm, map_pr, norm
 };
 
 }  // namespace

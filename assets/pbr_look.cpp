@@ -81,7 +81,7 @@ void AddToMtl(const PbrLook& look, const fs::path& mtl) {
   core::WriteFile(mtl, text);
 }
 
-// Gives the visual geom's material the highlights of the first material.
+// Gives the visual geom's material the highlights of the main material.
 void AddToMjcf(const core::TexturedMesh& visual, const PbrLook& look, const std::string& name,
                const fs::path& mjcf) {
   tinyxml2::XMLDocument document;
@@ -101,14 +101,15 @@ void AddToMjcf(const core::TexturedMesh& visual, const PbrLook& look, const std:
     const std::string material_name = name + "_material";
     material = document.NewElement("material");
     material->SetAttribute("name", material_name.c_str());
-    const Eigen::Vector4f& c = visual.materials[0].base_color;
+    const Eigen::Vector4f& c =
+        visual.materials[static_cast<std::size_t>(MainMaterial(visual))].base_color;
     material->SetAttribute("rgba", Numbers({c.x(), c.y(), c.z(), 1.0}).c_str());
     meshes->InsertFirstChild(material);
     geom->DeleteAttribute("rgba");
     geom->SetAttribute("material", material_name.c_str());
   }
   // A rough surface has no highlight; that of a smooth one is stronger on metal.
-  const MeanReflection mean = MeanReflectionOf(look, 0);
+  const MeanReflection mean = MeanReflectionOf(look, MainMaterial(visual));
   const double gloss = 1.0 - mean.roughness;
   material->SetAttribute("specular", Numbers({gloss * (0.5 + 0.5 * mean.metallic)}).c_str());
   material->SetAttribute("shininess", Numbers({gloss}).c_str());
@@ -132,6 +133,16 @@ MeanReflection MeanReflectionOf(const PbrLook& look, int material) {
   const PbrMaterial& pbr = look.materials[static_cast<std::size_t>(material)];
   return {pbr.metallic * MeanOf(look, pbr.metallic_map),
           pbr.roughness * MeanOf(look, pbr.roughness_map)};
+}
+
+int MainMaterial(const core::TexturedMesh& visual) {
+  if (visual.materials.empty() || visual.triangle_material.empty()) return 0;
+  std::vector<double> area(visual.materials.size(), 0.0);
+  for (std::size_t t = 0; t < visual.triangle_material.size(); ++t) {
+    area[static_cast<std::size_t>(visual.triangle_material[t])] +=
+        core::TriangleAreaVector(visual.mesh, static_cast<int>(t)).norm();
+  }
+  return static_cast<int>(std::max_element(area.begin(), area.end()) - area.begin());
 }
 
 void AddPbrLook(const core::TexturedMesh& visual, const PbrLook& look, const std::string& name,

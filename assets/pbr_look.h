@@ -37,8 +37,12 @@ struct MeanReflection {
 };
 MeanReflection MeanReflectionOf(const PbrLook& look, int material);
 
+// Returns the material that covers most of the surface, by which formats of one material show the
+// object; 0 if faces state none.
+int MainMaterial(const core::TexturedMesh& visual);
+
 // Adds the look to a written asset folder (docs/formats.md): the maps as PNG files, Pm, Pr and the
-// maps to visual.mtl, "materials" to asset.json, and specular and shininess of the first material
+// maps to visual.mtl, "materials" to asset.json, and specular and shininess of the main material
 // to the MJCF `name`.xml (MuJoCo 2.2 has no metallic). Does nothing for an empty look. Throws
 // core::Error if a file of the folder is missing or damaged.
 void AddPbrLook(const core::TexturedMesh& visual, const PbrLook& look, const std::string& name,

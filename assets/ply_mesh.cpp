@@ -71,7 +71,10 @@ class PlyReader {
     if (const PlyElement* strips = table_.Find("tristrips")) AddStrips(*strips);
     raw_.mesh.part_names.push_back(path_.stem().string());
     raw_.mesh.triangle_part.assign(raw_.mesh.mesh.triangles.size(), 0);
-    if (!has_uvs_) raw_.mesh.corner_uvs.clear();
+    if (!has_uvs_) {
+      raw_.mesh.corner_uvs.clear();
+      for (const int material : raw_.mesh.triangle_material) ++raw_.faces_without_uvs[material];
+    }
     return std::move(raw_);
   }
 

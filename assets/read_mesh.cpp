@@ -59,6 +59,24 @@ bool ReadTextureFile(const fs::path& folder, const std::string& name, FindingLis
   }
 }
 
+core::Image WithoutAlpha(const core::Image& image) {
+  if (image.channels != 4) return image;
+  core::Image opaque(image.width, image.height, 3);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) std::copy_n(image.At(x, y), 3, opaque.At(x, y));
+  }
+  return opaque;
+}
+
+core::Image ChannelOf(const core::Image& image, int channel) {
+  core::Image grey(image.width, image.height, 1);
+  const int from = std::min(channel, image.channels - 1);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) *grey.At(x, y) = image.At(x, y)[from];
+  }
+  return grey;
+}
+
 CornerColor ToCornerColor(const Eigen::Vector4f& color) {
   CornerColor result;
   for (int k = 0; k < 4; ++k) {

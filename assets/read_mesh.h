@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -30,6 +31,8 @@ struct RawMesh {
   // DAE).
   bool colors_multiply = false;
   char up = 0;  // as in MeshFile
+  // Material -> the number of its faces for which the file states no texture coordinates.
+  std::map<int, std::size_t> faces_without_uvs;
 
   // Sets the colour of the last added corner; null: white if other corners have a colour. Nothing
   // is stored before the first colour.
@@ -71,6 +74,10 @@ class VertexIndexer {
 // read.
 bool ReadTextureFile(const std::filesystem::path& folder, const std::string& name,
                      FindingList* findings, core::Image* image);
+
+// Returns one channel of an image, the last one if it has fewer; and an image without its alpha.
+core::Image ChannelOf(const core::Image& image, int channel);
+core::Image WithoutAlpha(const core::Image& image);
 
 // Converts (r, g, b, a) in [0, 1], with rounding.
 CornerColor ToCornerColor(const Eigen::Vector4f& color);
