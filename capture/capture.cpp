@@ -4,7 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "capture/capture_doubts.h"
 #include "capture/mat_evidence.h"
+#include "capture/mat_sharpness.h"
 #include "capture/object_masks.h"
 #include "capture/view_agreement.h"
 #include "core/error.h"
@@ -36,11 +38,15 @@ class MatCapture {
     progress_->Stage("agreement of the views");
     LeaveOutContradictions(source_, &result_);
     AdviseMorePhotos(&result_);
+    Append(CaptureDoubts(source_, result_, options_.print_scale));
     progress_->Finish();
     return std::move(result_);
   }
 
  private:
+  void Append(const core::Findings& findings) {
+    result_.findings.insert(result_.findings.end(), findings.begin(), findings.end());
+  }
   void Calibrate();
   Eigen::AlignedBox3d ObjectPlace() const;
   // Crops all photos to a box and segments them.
@@ -61,10 +67,17 @@ void MatCapture::Calibrate() {
   const int count = static_cast<int>(source_.photos.size());
   progress_->Stage("mat", count);
   std::vector<std::optional<MatObservation>> mats(source_.photos.size());
+  std::vector<double> edge_widths(mats.size(), 0.0);
   core::ParallelFor(count, [&](int i) {
-    mats[static_cast<std::size_t>(i)] = DetectMat(source_.read(i));
+    const auto at = static_cast<std::size_t>(i);
+    const core::Image photo = source_.read(i);
+    mats[at] = DetectMat(photo);
+    if (mats[at]) edge_widths[at] = EdgeWidthOnMat(photo, *mats[at]);
     progress_->Advance();
   });
+  std::vector<std::string> names;
+  for (const CaptureSource::Photo& photo : source_.photos) names.push_back(photo.name);
+  Append(BlurredPhotos(edge_widths, names));
   MatCalibrationInput input;
   input.print_scale = options_.print_scale;
   for (int i = 0; i < count; ++i) {
@@ -81,8 +94,7 @@ void MatCapture::Calibrate() {
   progress_->Stage("cameras");
   result_.calibration = CalibrateOnMat(input);
   result_.paper = input.photos[0].mat.paper;
-  result_.findings.insert(result_.findings.end(), result_.calibration.findings.begin(),
-                          result_.calibration.findings.end());
+  Append(result_.calibration.findings);
 }
 
 Eigen::AlignedBox3d MatCapture::ObjectPlace() const {
@@ -122,8 +134,10 @@ core::TriangleMesh MatCapture::Hull(const std::vector<HullVote>& votes,
                                     const Eigen::AlignedBox3d& box, int cells) const {
   core::TriangleMesh hull = HullOf(votes, box, cells);
   if (hull.empty()) {
-    throw core::Error("no object stands on the mat in all photos", "capture",
-                      "leave the object where it stands and move around it");
+    throw core::Error(
+        "no object stands on the mat in all photos", "capture",
+        "leave the object where it stands and move around it; clear glass and mirrors "
+        "have no outline: dull them with removable powder");
   }
   return hull;
 }

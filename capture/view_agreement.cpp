@@ -85,7 +85,8 @@ void LeaveOutContradictions(const CaptureSource& source, Capture* capture) {
                           " of " + std::to_string(agreement.size()) + " photos only",
                       "capture",
                       "leave one object where it stands, move around it, and choose a background "
-                      "of other colours");
+                      "of other colours; clear glass and mirrors have no outline: dull them with "
+                      "removable powder");
   }
   capture->views = std::move(kept);
   capture->calibration.views = std::move(poses);
