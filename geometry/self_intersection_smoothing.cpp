@@ -39,7 +39,7 @@ std::vector<char> FaultyVertices(const core::TriangleMesh& mesh,
 }
 
 // The rounds of smoothing after faces were replaced, and the largest number of replacements.
-constexpr int kRoundsAfter = 4, kReplacements = 5;
+constexpr int kRoundsAfter = 4, kReplacements = 3;
 constexpr std::size_t kMostCorners = 120;  // of a hole that is filled
 // The largest share of faulty vertices that smoothing is tried on, and that is left to be replaced.
 constexpr double kMostFaulty = 0.3, kMostReplaced = 0.02;

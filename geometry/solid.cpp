@@ -115,6 +115,7 @@ bool TryUnion(const TriangleMesh& welded, double diagonal, const SolidOptions& o
 // Lengths of repairs, as shares of the tolerance: how far smoothing moves a vertex, and the error
 // of simplification, root mean square and at most. Walls may be as thin as the tolerance.
 constexpr double kSmoothedShare = 0.3, kThinnedShare = 0.06, kThinnedMost = 0.2;
+constexpr double kRepairedMost = 0.9;  // share of the tolerance, of a repaired solid's distance
 constexpr int kSmoothingRounds = 6;
 constexpr std::size_t kMostRepaired = 300000;  // faces: more take longer than a grid
 
@@ -170,6 +171,12 @@ bool TryRepair(const TriangleMesh& welded, double diagonal, const SolidOptions& 
           static_cast<double>(whole.triangles.size()));
     }
     if (intersections > 0) {
+      SurfaceDistanceOptions check;
+      check.seed = 11;
+      check.rays = 200000;
+      check.solid_samples = 100000;
+      const double distance = OuterSurfaceDistance(welded, whole, check).MaxRatio();
+      if (distance > kRepairedMost * options.tolerance_ratio) return false;
       Add(solid, "solid-smoothed", Severity::kInfo,
           "the surface was smoothed where it intersects itself, by at most " +
               std::to_string(1000.0 * kSmoothedShare * tolerated) + " mm",

@@ -15,7 +15,7 @@ namespace {
 constexpr double kNeighbourCovariance = -0.278;
 // Standard deviations between the outermost vertices of both ends of a side, of thousands.
 constexpr double kSideSpread = 6.5;
-constexpr double kNoticedSide = 0.015;  // of the smallest side
+constexpr double kNoticedSide = 0.008;  // of the smallest side
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace simwright::importers {
 // compared with its neighbours': noise makes them opposite, curvature and edges make them alike.
 double SurfaceNoise(const core::TriangleMesh& mesh);
 
-// Adds the warning "mesh-noise" if noise makes the smallest side uncertain by more than 1.5 %.
+// Adds the warning "mesh-noise" if noise makes the smallest side uncertain by more than 0.8 %.
 void WarnOfNoise(const std::string& where, const core::TriangleMesh& mesh,
                  core::Findings* findings);
 

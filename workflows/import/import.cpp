@@ -152,10 +152,12 @@ void RefuseItem(const core::Error& error, ImportOutcome* outcome) {
 }
 
 // Warns where the solid of a mesh file differs from the surface in its sides or in the thickness
-// of its walls.
+// of its walls, and where a surface that intersects itself is too noisy for exact sides.
 void WarnOfSolid(assets::Asset* asset) {
   for (core::Finding& finding : asset->findings) {
-    if (finding.code == "solid-sheets") finding.severity = core::Severity::kWarning;
+    if (finding.code == "solid-sheets" || finding.code == "solid-smoothed") {
+      finding.severity = core::Severity::kWarning;
+    }
   }
   const Eigen::Vector3d seen = core::Bounds(asset->visual.mesh).sizes();
   const Eigen::Vector3d made = core::Bounds(asset->solid).sizes();
