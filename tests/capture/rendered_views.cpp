@@ -11,7 +11,7 @@
 namespace simwright::capture {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kViewDegree = std::numbers::pi / 180.0;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ RenderedViews RenderViews(const core::TexturedMesh& object, int count) {
   rendered.diagonal = box.diagonal().norm();
   core::Rng rng(3);
   for (int i = 0; i < count; ++i) {
-    const double elevation = (i % 3 == 0 ? 15.0 : i % 3 == 1 ? 38.0 : 62.0) * kDegree;
+    const double elevation = (i % 3 == 0 ? 15.0 : i % 3 == 1 ? 38.0 : 62.0) * kViewDegree;
     asset_lift::ObservedView view;
     view.camera = core::OrbitCamera(box.center(), 4.0 * rendered.diagonal, elevation,
                                     2.0 * std::numbers::pi * i / count, 0.27, 220, 220);
