@@ -158,6 +158,17 @@ TEST_F(DaeImport, PicturesByUriAreFound) {
                    "<newparam sid=\"surface\"><surface type=\"2D\"><init_from>i</init_from>"
                    "</surface></newparam><newparam sid=\"sampler\"><sampler2D><source>surface"
                    "</source></sampler2D></newparam>");
+  // A picture shows only where it has coordinates.
+  const std::string vertices = "<vertices id=\"v\">", input = "<p>0 2 1";
+  text.replace(
+      text.find(vertices), vertices.size(),
+      "<source id=\"t\"><float_array id=\"ta\" count=\"16\">0 0 1 0 0 1 1 1 0 0 1 0 0 1 1 1"
+      "</float_array><technique_common><accessor source=\"#ta\" count=\"8\" stride=\"2\">"
+      "<param name=\"S\" type=\"float\"/><param name=\"T\" type=\"float\"/></accessor>"
+      "</technique_common></source>" +
+          vertices);
+  text.replace(text.find(input), input.size(),
+               "<input semantic=\"TEXCOORD\" source=\"#t\" offset=\"0\" set=\"0\"/>" + input);
   const std::string effects = "<library_effects>";
   for (const char* uri :
        {"tex/my%20wood.png", "file:///C:/models/tex/my%20wood.png", "..\\tex\\my wood.png"}) {

@@ -74,7 +74,6 @@ INSTANTIATE_TEST_SUITE_P(
                       std::vector<std::string>{"lemon", "glb", "mirrored-node", "unit-box"},
                       std::vector<std::string>{"candle", "obj", "degenerate-faces", "y-up"},
                       std::vector<std::string>{"pear", "stl", "t-junctions", "inches"},
-                      std::vector<std::string>{"frying_pan", "stl", "noise", "centimetres"},
                       std::vector<std::string>{"cutting_board", "glb", "overlapping-part",
                                                "staircase"},
                       std::vector<std::string>{"die", "ply", "inner-wall", "lost-vertices"}));
