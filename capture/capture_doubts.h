@@ -5,7 +5,7 @@
 
 namespace simwright::capture {
 
-// How far photos contradict each other in the colours of the hull's surface.
+// The disagreement of photos about the colours of the hull's surface.
 struct ColorContradiction {
   // The share of the surface points that three photos or more show, of which they show different
   // colours (more than kSpread apart in CIELAB, after exposure and white balance).
@@ -22,8 +22,9 @@ ColorContradiction MeasureContradiction(const Capture& capture);
 
 // Returns warnings about captures whose asset is probably wrong although the outlines agree:
 // several bodies on the mat ("other-objects"), a hull that reaches the mat's edge ("mat-covered"),
-// and photos that show different colours of the same surface
-// ("colors-contradict"), as those of mirrors, clear glass and two exchanged objects do.
+// and photos that show different colours of the same surface ("colors-contradict"), as those of
+// mirrors, clear glass and two exchanged objects do. `print_scale`: the printed mat's true length
+// over its nominal one.
 core::Findings CaptureDoubts(const CaptureSource& source, const Capture& capture,
                              double print_scale);
 

@@ -57,7 +57,7 @@ MatchView::MatchView(const asset_lift::ObservedView& view, int blur_radius)
   const std::size_t pixels = static_cast<std::size_t>(width_) * height_;
   std::vector<float> grey(pixels, 0.0f), inside(pixels, 0.0f);
   for (std::size_t i = 0; i < pixels; ++i) {
-    if (view.opacity.values[i] < 0.95f) continue;
+    if (view.color.values.empty() || view.opacity.values[i] < 0.95f) continue;
     const float* rgb = &view.color.values[3 * i];
     grey[i] = 255.0f * (0.3f * rgb[0] + 0.59f * rgb[1] + 0.11f * rgb[2]);
     inside[i] = 1.0f;

@@ -13,12 +13,12 @@ namespace simwright::capture {
 // A photo as stereo compares it: grey without its slow gradients, which any depth explains.
 class MatchView {
  public:
-  // `view` has colours. `blur_radius`: pixels, of the mean that is subtracted.
+  // A `view` without colours has no values. `blur_radius`: pixels, of the mean that is subtracted.
   MatchView(const asset_lift::ObservedView& view, int blur_radius);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  // Returns the value of a pixel, of 255; NaN outside the mask.
+  // Returns the value of a pixel, of 255; NaN outside the mask and without colours.
   float At(int x, int y) const { return values_[static_cast<std::size_t>(y) * width_ + x]; }
   const float* Row(int y) const { return &values_[static_cast<std::size_t>(y) * width_]; }
   const core::Camera& camera() const { return camera_; }
@@ -53,7 +53,7 @@ struct PatchMatchOptions {
   // The least eigenvalue of the gradients' covariance in a window, and its share of the greatest:
   // along a straight edge any depth matches.
   float least_gradient = 2.5f, least_roundness = 0.06f;
-  float slack = 0.004f;     // diagonals that the surface may lie before the hull
+  float slack = 0.004f;     // diagonals by which the surface can be in front of the hull
   float most_cost = 0.35f;  // of a plane that is kept
   // The cost of planes this much nearer and farther (diagonals) must be larger by `distinct_cost`.
   float distinct_shift = 0.012f, distinct_cost = 0.12f;

@@ -27,7 +27,7 @@ void RequireValidFairness(const SurfaceFairnessOptions& options) {
 // The hits of one cell are consecutive.
 class HitGrid {
  public:
-  HitGrid(const std::vector<OuterHit>& hits, double cell) : hits_(hits), cell_(cell) {
+  HitGrid(const std::vector<OuterHit>& hits, double cell) : cell_(cell) {
     for (int i = 0; i < static_cast<int>(hits.size()); ++i) {
       cells_[Key(Cell(hits[i].point))].push_back(i);
     }
@@ -53,7 +53,6 @@ class HitGrid {
     return (std::int64_t{cell.x()} * 2097152 + cell.y()) * 2097152 + cell.z();
   }
 
-  const std::vector<OuterHit>& hits_;
   double cell_;
   std::unordered_map<std::int64_t, std::vector<int>> cells_;
 };

@@ -32,8 +32,7 @@ class ShapeBatches {
   // Renders the new photos of a step from random objects of the pool, and draws the step's batch.
   // All values are bytes.
   Batch Draw(const TrainingPool& pool, std::uint64_t step) {
-    const int fresh =
-        options_.fresh > 0 ? std::min(options_.fresh, options_.batch) : options_.batch;
+    const int fresh = options_.fresh > 0 ? options_.fresh : options_.batch;
     std::vector<ShapeExample> rendered(static_cast<size_t>(fresh));
     core::ParallelFor(fresh, [&](int i) {
       core::Rng rng =

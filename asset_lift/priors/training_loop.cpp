@@ -58,8 +58,13 @@ bool PriorTrainingOptions::IsValid(std::string* error) const {
   };
   if (!trainer.IsValid(error)) return false;
   if (batch < 1) return fail("training needs at least one photo per step");
-  if (fresh < 0 || (fresh > 0 && fresh < batch && memory < batch)) {
+  if (fresh < 0 || fresh > batch)
+    return fail("a step cannot render more new photos than its batch");
+  if (fresh > 0 && fresh < batch && memory < batch) {
     return fail("training on photos of earlier steps needs a memory of at least one batch");
+  }
+  if (memory < 0 || (memory > 0 && (fresh == 0 || fresh == batch))) {
+    return fail("a memory of photos serves only steps with fewer new photos than their batch");
   }
   if (pool < 1 || exchange < 0 || exchange > pool) return fail("the pool is too small");
   if (!(parametric_share >= 0.0 && parametric_share <= 1.0)) {

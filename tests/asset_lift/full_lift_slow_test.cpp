@@ -146,6 +146,11 @@ TEST_F(FullLift, TrainsOnPhotosOfEarlierSteps) {
   options.memory = 2;  // less than a batch
   EXPECT_FALSE(options.IsValid(&error));
   EXPECT_NE(error.find("memory"), std::string::npos) << error;
+  options.memory = 3;
+  options.fresh = 4;  // more than a batch
+  EXPECT_FALSE(options.IsValid(&error));
+  options.fresh = 0;  // the memory would be of no use
+  EXPECT_FALSE(options.IsValid(&error));
 }
 
 TEST_F(FullLift, BothStagesGiveASolidThatShowsThePhoto) {
