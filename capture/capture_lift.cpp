@@ -39,6 +39,9 @@ CaptureLiftOptions::CaptureLiftOptions() {
   fit.mesh.first_edge_ratio = 0.03;
   fit.mesh.last_edge_ratio = 0.012;
   fit.mesh.depth_tolerance = 0.01;
+  fit.mesh.first_area_weight = 0.6;
+  fit.mesh.last_area_weight = 0.1;
+  fit.mesh.stands_on_floor = true;
 }
 
 asset_lift::LiftedMesh LiftCapture(const Capture& capture, const CaptureLiftOptions& options,

@@ -182,16 +182,20 @@ MatEvidence CompareWithMat(const core::Image& photo, const core::Camera& camera,
   cv::erode(albedo, lowest, {});
   evidence.difference = core::FloatImage(photo.width, photo.height, 1, -1.0f);
   evidence.pattern = core::FloatImage(photo.width, photo.height, 1);
+  evidence.expected = core::Image(photo.width, photo.height, 3);
   core::ParallelFor(size.height, [&](int y) {
     for (int x = 0; x < size.width; ++x) {
       *evidence.pattern.At(x, y) = pattern.at<float>(y, x);
       const float a = albedo.at<float>(y, x);
       if (a < 0.0f) continue;
+      const cv::Vec3f &ink = dark.at<cv::Vec3f>(y, x), &paper = light_color.at<cv::Vec3f>(y, x);
+      for (int c = 0; c < 3; ++c) {
+        evidence.expected.At(x, y)[c] =
+            cv::saturate_cast<std::uint8_t>(ink[c] + a * (paper[c] - ink[c]));
+      }
       const float edge =
           kEdgeShare * (highest.at<float>(y, x) - std::max(0.0f, lowest.at<float>(y, x)));
-      *evidence.difference.At(x, y) =
-          DifferenceAt(color.at<cv::Vec3f>(y, x), dark.at<cv::Vec3f>(y, x),
-                       light_color.at<cv::Vec3f>(y, x), a, edge);
+      *evidence.difference.At(x, y) = DifferenceAt(color.at<cv::Vec3f>(y, x), ink, paper, a, edge);
     }
   });
   return evidence;

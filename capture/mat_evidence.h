@@ -16,6 +16,7 @@ struct MatEvidence {
   // (H x W x 1) the correlation of the photo with the mat's pattern in a window, in [-1, 1]; 0
   // where the pattern is even.
   core::FloatImage pattern;
+  core::Image expected;  // (H x W x 3) the mat's colour in the photo's light without soft shadows
 };
 
 // Compares a photo (RGB, without distortion) with the mat seen by its camera (mat frame).

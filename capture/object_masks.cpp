@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "capture/outline_matte.h"
 #include "core/error.h"
 #include "render/forward.h"
 
@@ -113,7 +114,12 @@ core::FloatImage SegmentOnMat(const core::Image& photo, const MatEvidence& evide
     }
     KeepLargeRegions(&inside);
   }
-  return Softened(inside);
+  if (hull.empty() || evidence.expected.pixels.empty()) return Softened(inside);
+  core::FloatImage mask(photo.width, photo.height, 1);
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) *mask.At(x, y) = inside.at<std::uint8_t>(y, x);
+  }
+  return MatteOnMat(photo, evidence, mask);
 }
 
 core::FloatImage OpenBesideMat(const core::FloatImage& opacity, const MatEvidence& evidence) {

@@ -253,10 +253,15 @@ MatEvidence CompareWithTable(const TableView& view, const TablePicture& table, i
   MatEvidence evidence;
   evidence.difference = core::FloatImage(photo.width, photo.height, 1, -1.0f);
   evidence.pattern = core::FloatImage(photo.width, photo.height, 1);
+  evidence.expected = core::Image(photo.width, photo.height, 3);
   core::ParallelFor(photo.height, [&](int y) {
     for (int x = 0; x < photo.width; ++x) {
       *evidence.pattern.At(x, y) = pattern.at<float>(y, x);
       if (known.at<float>(y, x) == 0.0f) continue;
+      for (int c = 0; c < 3; ++c) {
+        evidence.expected.At(x, y)[c] =
+            cv::saturate_cast<std::uint8_t>(gain[c] * expected.at<cv::Vec3f>(y, x)[c]);
+      }
       *evidence.difference.At(x, y) =
           ColorDifference(color.at<cv::Vec3f>(y, x), expected.at<cv::Vec3f>(y, x),
                           highest.at<cv::Vec3f>(y, x) - lowest.at<cv::Vec3f>(y, x));

@@ -5,9 +5,13 @@
 #include <limits>
 #include <numbers>
 
+#include "asset_lift/mesh_fit/area_penalty.h"
+#include "asset_lift/mesh_fit/floor_contact.h"
+
 namespace simwright::asset_lift {
 namespace {
 
+constexpr double kFloorBand = 0.005;  // of the diagonal, above the floor, in which a base is held
 constexpr double kNotFinite = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<render::DifferentiableObject> Objects(const core::TriangleMesh& mesh,
@@ -29,6 +33,13 @@ Eigen::MatrixX3d VertexRows(const std::vector<Eigen::Vector3d>& vectors) {
   Eigen::MatrixX3d rows(static_cast<Eigen::Index>(vectors.size()), 3);
   for (std::size_t i = 0; i < vectors.size(); ++i) rows.row(i) = vectors[i];
   return rows;
+}
+
+// Decreases from the first weight to the last one in a geometric sequence.
+double AreaWeight(const MeshFitOptions& options, double progress) {
+  if (!(options.last_area_weight > 0.0)) return 0.0;
+  return options.first_area_weight *
+         std::pow(options.last_area_weight / options.first_area_weight, progress);
 }
 
 void Scale(float factor, core::FloatImage* image) {
@@ -84,6 +95,9 @@ void MeshDescent::RestoreState() {
 void MeshDescent::Show() {
   const Eigen::MatrixX3d v = steps_.Solve(smooth_);
   for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) mesh_.vertices[i] = v.row(i);
+  if (options_.stands_on_floor && StandOnFloor(kFloorBand * weights_.length, &mesh_)) {
+    smooth_ = steps_.Apply(VertexRows(mesh_.vertices));
+  }
   renderer_.SetVertices(0, mesh_.vertices);
   if (!colors_.empty()) renderer_.SetVertexColors(0, colors_);
 }
@@ -129,6 +143,9 @@ double MeshDescent::Step(const std::vector<const ViewTarget*>& views, ImageObjec
   render::ObjectGradients& of = gradients_.objects[0];
   loss +=
       options_.normal_weight * penalty_.Add(mesh_.vertices, options_.normal_weight, &of.vertices);
+  if (const double weight = AreaWeight(options_, progress); weight > 0.0) {
+    loss += weight * AddAreaPenalty(mesh_, weights_.length, weight, &of.vertices);
+  }
   const Eigen::MatrixX3d gradient = VertexRows(of.vertices);
   if (!std::isfinite(loss) || !gradient.allFinite() || !AllFinite(of.vertex_colors)) {
     return kNotFinite;

@@ -250,11 +250,15 @@ bool MeshFitOptions::IsValid(std::string* error) const {
   if (views_per_step < 1 || samples_per_side < 1 || edge_samples < 0) {
     return fail("views_per_step and samples_per_side must be at least 1");
   }
-  for (const double weight : {mask_weight, color_weight, depth_weight, depth_tolerance,
-                              normal_weight, objective_weight, smoothing}) {
+  for (const double weight :
+       {mask_weight, color_weight, depth_weight, depth_tolerance, normal_weight, first_area_weight,
+        last_area_weight, objective_weight, smoothing}) {
     if (!(weight >= 0.0) || !std::isfinite(weight)) {
       return fail("weights must be finite and not negative");
     }
+  }
+  if ((first_area_weight > 0.0) != (last_area_weight > 0.0)) {
+    return fail("give both weights of the area, or none");
   }
   if (!(step_ratio > 0.0) || !(color_rate >= 0.0) || !std::isfinite(step_ratio) ||
       !std::isfinite(color_rate)) {

@@ -32,6 +32,11 @@ struct MeshFitOptions {
   // From about this angle on, an edge is a crease that costs the same whatever its angle
   // (normal_penalty.h), deg; 0: none.
   double crease_angle_deg = 0.0;
+  // Weights of the area over the squared diagonal (area_penalty.h), from the first to the last step
+  // in a geometric sequence; 0: none.
+  double first_area_weight = 0.0;
+  double last_area_weight = 0.0;
+  bool stands_on_floor = false;  // holds the base on the floor z = 0 (floor_contact.h)
   double objective_weight = 1.0;
 
   // The lambda of large steps. The paper's 19 with its steps of 0.3% leaves hollows less accurate:

@@ -11,9 +11,9 @@
 // diagonal, without any alignment: the mat's frame is the truth's) of the hull, of the start
 // without stereo, of the start and of the fitted mesh; the size's error (percent of the longest
 // side); the cameras' position error (percent of the distance); the reprojection error (pixels);
-// masks' IoU (mean, least); the share of the object's pixels whose depth stereo found (percent),
-// the median and the ninth decile of its error (percent of the diagonal); seconds to the hull, for
-// the start, all.
+// masks' IoU (mean, least) and the mean distance of their outlines outside the true ones (pixels);
+// the share of the object's pixels whose depth stereo found (percent), the median and the ninth
+// decile of its error (percent of the diagonal); seconds to the hull, for the start, all.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -153,18 +153,26 @@ double ChamferPercent(const core::TriangleMesh& truth, const core::TriangleMesh&
 
 struct MaskScore {
   double mean = 0.0, least = 1.0;
+  double bias = 0.0;  // mean distance of the masks' outlines outside the true ones, pixels
 };
 
 MaskScore MaskIou(const capture::Capture& capture, const core::TriangleMesh& truth) {
   MaskScore score;
   for (const capture::CaptureView& view : capture.views) {
     const core::FloatImage expected = capture::SilhouetteOf(truth, view.camera);
-    double both = 0.0, either = 0.0;
+    double both = 0.0, either = 0.0, outline = 0.0, excess = 0.0;
+    const int width = expected.width;
     for (std::size_t i = 0; i < expected.values.size(); ++i) {
+      excess += view.opacity.values[i] - expected.values[i];
+      if (i >= static_cast<std::size_t>(width)) {
+        outline += std::hypot(expected.values[i] - expected.values[i - 1],
+                              expected.values[i] - expected.values[i - width]);
+      }
       const bool a = expected.values[i] >= 0.5f, b = view.opacity.values[i] >= 0.5f;
       both += a && b;
       either += a || b;
     }
+    score.bias += excess / outline / static_cast<double>(capture.views.size());
     score.mean += both / either / static_cast<double>(capture.views.size());
     score.least = std::min(score.least, both / either);
   }
@@ -185,16 +193,23 @@ void Dump(const fs::path& folder, const CapturedObject& object, const capture::C
   std::vector<core::Image> pictures;
   for (const capture::CaptureView& view : capture.views) {
     core::Image cut = view.photo;
+    const core::FloatImage truth = capture::SilhouetteOf(object.mesh.mesh, view.camera);
     for (int y = 0; y < cut.height; ++y) {
       for (int x = 0; x < cut.width; ++x) {
-        if (*view.opacity.At(x, y) >= 0.5f) continue;
         std::uint8_t* pixel = cut.At(x, y);
+        if ((*view.opacity.At(x, y) >= 0.5f) != (*truth.At(x, y) >= 0.5f)) {
+          pixel[0] = *truth.At(x, y) >= 0.5f ? 0 : 255;
+          pixel[1] = 0;
+          pixel[2] = *truth.At(x, y) >= 0.5f ? 255 : 0;
+          continue;
+        }
+        if (*view.opacity.At(x, y) >= 0.5f) continue;
         pixel[0] = static_cast<std::uint8_t>(pixel[0] / 4);
         pixel[1] = static_cast<std::uint8_t>(128 + pixel[1] / 4);
         pixel[2] = static_cast<std::uint8_t>(pixel[2] / 4);
       }
     }
-    pictures.push_back(core::Resize(cut, cut.width / 2, cut.height / 2));
+    pictures.push_back(cut);
   }
   core::WritePng(folder / (object.name + "_masks.png"), core::ContactSheet(pictures, 6));
   core::WriteFile(folder / (object.name + "_hull.obj"), assets::ObjText(capture.hull));
@@ -277,11 +292,11 @@ double Measure(const CapturedObject& object, const Settings& settings) {
     }
   }
   std::printf(
-      "%-22s %6.2f %6.2f %6.2f %6.2f %6.2f %6.2f %6.3f %6.3f %6.1f %6.2f %6.2f %6.1f %6.1f "
-      "%6.1f\n",
+      "%-22s %6.2f %6.2f %6.2f %6.2f %6.2f %6.2f %6.3f %6.3f %6.2f %6.1f %6.2f %6.2f %6.1f "
+      "%6.1f %6.1f\n",
       object.name.c_str(), hull, started, fitted, size, PositionError(capture, poses),
-      capture.calibration.error, masks.mean, masks.least, 100.0 * first.depth_share, depths.median,
-      depths.ninth_decile, hull_seconds, start_seconds, all_seconds);
+      capture.calibration.error, masks.mean, masks.least, masks.bias, 100.0 * first.depth_share,
+      depths.median, depths.ninth_decile, hull_seconds, start_seconds, all_seconds);
   std::fflush(stdout);
   return fitted;
 }
@@ -321,11 +336,13 @@ Settings ParseArguments(int count, char** arguments) {
 
 int Main(int count, char** arguments) {
   const Settings settings = ParseArguments(count, arguments);
-  std::printf("%-22s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s\n", "object", "hull",
-              "start", "fit", "size", "camera", "pixels", "iou", "least", "stereo", "error", "90 %",
-              "s", "start s", "all s");
+  std::printf("%-22s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s\n", "object",
+              "hull", "start", "fit", "size", "camera", "pixels", "iou", "least", "bias", "stereo",
+              "error", "90 %", "s", "start s", "all s");
   std::vector<double> all;
+  std::string names;
   for (const CapturedObject& object : Objects(settings)) {
+    names += (names.empty() ? "" : ", ") + object.name;
     if (!settings.only.empty() && object.name != settings.only) continue;
     try {
       all.push_back(Measure(object, settings));
@@ -335,7 +352,7 @@ int Main(int count, char** arguments) {
       all.push_back(100.0);
     }
   }
-  if (all.empty()) throw core::Error("no object is measured");
+  if (all.empty()) throw core::Error("there is no such object; there are: " + names, settings.only);
   std::sort(all.begin(), all.end());
   std::printf("median %.3f %% of the diagonal, worst %.3f %%, %zu objects\n", all[all.size() / 2],
               all.back(), all.size());

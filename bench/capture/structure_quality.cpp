@@ -321,13 +321,20 @@ int Main(int count, char** arguments) {
   const Settings settings = ParseArguments(count, arguments);
   std::printf("%-28s %6s %7s %7s %7s %6s %7s\n", "object", "placed", "median", "worst", "focal",
               "pixels", "s");
+  std::string names;
+  bool measured = false;
   for (const TexturedObject& object : TexturedObjects(settings.objects)) {
+    names += (names.empty() ? "" : ", ") + object.name;
     if (!settings.only.empty() && object.name != settings.only) continue;
+    measured = true;
     try {
       Measure(object, settings);
     } catch (const core::Error& error) {
       std::printf("%-28s failed: %s\n", object.name.c_str(), error.what());
     }
+  }
+  if (!measured) {
+    throw core::Error("there is no such object; there are: " + names, settings.only);
   }
   return 0;
 }

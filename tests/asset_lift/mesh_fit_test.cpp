@@ -6,9 +6,12 @@
 #include <limits>
 #include <numeric>
 
+#include "asset_lift/mesh_fit/area_penalty.h"
+#include "asset_lift/mesh_fit/floor_contact.h"
 #include "asset_lift/mesh_fit/large_steps.h"
 #include "asset_lift/mesh_fit/normal_penalty.h"
 #include "asset_lift/mesh_fit/view_loss.h"
+#include "asset_lift/multi_view/visual_hull.h"
 #include "core/error.h"
 #include "geometry/mesh_validity.h"
 #include "geometry/self_intersection_smoothing.h"
@@ -64,6 +67,50 @@ TEST(LargeSteps, AdamKeepsTheGradientsDirection) {
   // With the first step's corrections: -rate * g / max|g|.
   const Eigen::MatrixX3d step = adam.Step(gradient, 0.3);
   EXPECT_LT((step + 0.1 * gradient).norm(), 1e-12);
+}
+
+TEST(AreaPenalty, IsTheAreaWithItsDerivative) {
+  core::TriangleMesh mesh = BumpySphere();
+  const core::TriangleMesh ball = Sphere(0.1);
+  std::vector<Eigen::Vector3d> unused(ball.vertices.size(), Eigen::Vector3d::Zero());
+  EXPECT_NEAR(AddAreaPenalty(ball, 0.2, 0.0, &unused), M_PI, 0.02);  // 4 pi r^2 over (2 r)^2
+  std::vector<Eigen::Vector3d> gradient(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  AddAreaPenalty(mesh, 0.3, 2.0, &gradient);
+  for (const int v : {3, 100, 999}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr double kStep = 1e-7;
+      const auto value = [&](double by) {
+        core::TriangleMesh moved = mesh;
+        moved.vertices[v][axis] += by;
+        std::vector<Eigen::Vector3d> none(mesh.vertices.size(), Eigen::Vector3d::Zero());
+        return AddAreaPenalty(moved, 0.3, 0.0, &none);
+      };
+      EXPECT_NEAR(gradient[v][axis], (value(kStep) - value(-kStep)) / kStep, 1e-5);
+    }
+  }
+}
+
+TEST(FloorContact, PutsTheBaseOnTheFloorAndNothingBelow) {
+  core::TriangleMesh box = Hook();  // its base is at -0.1
+  for (Eigen::Vector3d& v : box.vertices) v.z() += 0.1;
+  core::TriangleMesh sunk = box;
+  for (Eigen::Vector3d& v : sunk.vertices) v.z() -= 0.02 * (1.0 + v.x() / 0.1);
+  EXPECT_TRUE(StandOnFloor(0.004, &sunk));
+  EXPECT_EQ(core::Bounds(sunk).min().z(), 0.0);
+  core::TriangleMesh raised = box;
+  for (Eigen::Vector3d& v : raised.vertices) v.z() += 0.003;
+  EXPECT_TRUE(StandOnFloor(0.004, &raised));
+  double top = 0.0;
+  int on_floor = 0;
+  for (std::size_t i = 0; i < raised.vertices.size(); ++i) {
+    on_floor += raised.vertices[i].z() == 0.0;
+    top = std::max(top, raised.vertices[i].z() - box.vertices[i].z());
+  }
+  EXPECT_GT(on_floor, 100);
+  EXPECT_NEAR(top, 0.003, 1e-12);  // what is no base keeps its height
+  core::TriangleMesh high = box;
+  for (Eigen::Vector3d& v : high.vertices) v.z() += 0.01;
+  EXPECT_FALSE(StandOnFloor(0.004, &high));
 }
 
 TEST(NormalPenalty, DerivativeMatchesDifferences) {
@@ -258,6 +305,30 @@ int Count(const MeshFitResult& result, const std::string& code) {
   int count = 0;
   for (const core::Finding& finding : result.findings) count += finding.code == code;
   return count;
+}
+
+TEST(MeshFit, TheLeastAreaFlattensWhatOutlinesLeaveOpen) {
+  const core::TriangleMesh box = SurfaceOf(
+      [](const Eigen::Vector3d& p) {
+        return (p.cwiseAbs() - Eigen::Vector3d(0.1, 0.06, 0.04)).maxCoeff();
+      },
+      0.13, 40);
+  std::vector<ObservedView> views = ViewsOf(box, 7, 96);
+  for (ObservedView& view : views) view.color = view.depth = {};
+  VisualHullOptions of_hull;
+  of_hull.cells = 48;
+  const core::TriangleMesh hull = VisualHull(views, of_hull);
+  MeshFitOptions options = Quick();
+  options.max_side = 96;
+  options.steps_per_round = 120;
+  options.first_edge_ratio = 0.04;
+  options.last_edge_ratio = 0.025;
+  const double plain = Chamfer(box, FitMesh(hull, views, nullptr, options).mesh);
+  options.first_area_weight = 0.6;
+  options.last_area_weight = 0.1;
+  const double flat = Chamfer(box, FitMesh(hull, views, nullptr, options).mesh);
+  EXPECT_GT(plain, 0.002);  // m: its hull has roofs over its sides
+  EXPECT_LT(flat, 0.6 * plain);
 }
 
 TEST(MeshFit, AnObjectiveAloneShapesTheMesh) {
