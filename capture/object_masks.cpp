@@ -18,12 +18,20 @@ constexpr float kSureMat = 1.5f;        // deviations under which a recognised p
 constexpr float kLikelyMat = 2.5f;      // under which a pixel may be
 constexpr float kSureObject = 6.0f;     // from which a pixel is no mat, where ...
 constexpr float kNoPattern = 0.4f;      // ... the pattern is missing
+constexpr float kCertainObject = 10.0f;  // from which it is no mat, whatever the pattern around
 constexpr float kRecognisedMat = 0.8f;  // correlation of a window that shows the mat
 constexpr double kHullMargin = 0.03;    // of the hull's size, by which the object may exceed it
 
-std::uint8_t LabelOnMat(float difference, float pattern) {
+std::uint8_t LabelOnMat(float difference, float pattern, bool printed) {
   if (difference < kSureMat && pattern > kRecognisedMat) return cv::GC_BGD;
+  // Black resembles the mat in a deep shadow, but a shadow leaves the mat its pattern. (0: the mat
+  // is even there.)
+  if (printed && pattern != 0.0f && pattern < kNoPattern && difference > kSureMat) {
+    return difference > kLikelyMat ? cv::GC_FGD : cv::GC_PR_FGD;
+  }
   if (difference > kSureObject && pattern < kNoPattern) return cv::GC_FGD;
+  // Thin parts leave the mat's pattern around them.
+  if (printed && difference > kCertainObject) return cv::GC_FGD;
   if (difference < kSureObject && pattern > kRecognisedMat) return cv::GC_PR_BGD;
   return difference < kLikelyMat ? cv::GC_PR_BGD : cv::GC_PR_FGD;
 }
@@ -88,7 +96,7 @@ core::FloatImage SegmentOnMat(const core::Image& photo, const MatEvidence& evide
       std::uint8_t label = cv::GC_PR_BGD;
       const float difference = *evidence.difference.At(x, y);
       if (difference >= 0.0f) {
-        label = LabelOnMat(difference, *evidence.pattern.At(x, y));
+        label = LabelOnMat(difference, *evidence.pattern.At(x, y), !evidence.albedo.empty());
       } else if (!hull.empty() && *hull.At(x, y) >= 0.5f) {
         label = cv::GC_PR_FGD;
       }
