@@ -14,13 +14,13 @@ namespace {
 
 constexpr int kIterations = 4;
 constexpr int kSeed = 1;
-constexpr float kSureMat = 1.5f;        // deviations under which a recognised pixel is the mat
-constexpr float kLikelyMat = 2.5f;      // under which a pixel may be
-constexpr float kSureObject = 6.0f;     // from which a pixel is no mat, where ...
-constexpr float kNoPattern = 0.4f;      // ... the pattern is missing
+constexpr float kSureMat = 1.5f;         // deviations under which a recognised pixel is the mat
+constexpr float kLikelyMat = 2.5f;       // under which a pixel may be
+constexpr float kSureObject = 6.0f;      // from which a pixel is no mat, where ...
+constexpr float kNoPattern = 0.4f;       // ... the pattern is missing
 constexpr float kCertainObject = 10.0f;  // from which it is no mat, whatever the pattern around
-constexpr float kRecognisedMat = 0.8f;  // correlation of a window that shows the mat
-constexpr double kHullMargin = 0.03;    // of the hull's size, by which the object may exceed it
+constexpr float kRecognisedMat = 0.8f;   // correlation of a window that shows the mat
+constexpr double kHullMargin = 0.03;     // of the hull's size, by which the object may exceed it
 
 std::uint8_t LabelOnMat(float difference, float pattern, bool printed) {
   if (difference < kSureMat && pattern > kRecognisedMat) return cv::GC_BGD;
