@@ -35,6 +35,11 @@ class MatCapture {
     const Eigen::AlignedBox3d box = Grown(core::Bounds(result_.hull));
     CutOut(box, options_.crop_side, result_.hull);
     result_.hull = Hull({Vote(options_.tolerated_views, false)}, box, options_.hull_cells);
+    core::ParallelFor(static_cast<int>(result_.views.size()), [&](int i) {
+      const auto at = static_cast<std::size_t>(i);
+      CaptureView& view = result_.views[at];
+      ClipBesideMat(evidence_[at], SilhouetteOf(result_.hull, view.camera), &view.opacity);
+    });
     progress_->Stage("agreement of the views");
     LeaveOutContradictions(source_, &result_);
     AdviseMorePhotos(&result_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
@@ -62,18 +63,32 @@ core::FloatImage Softened(const cv::Mat& inside) {
   return opacity;
 }
 
-// Removes regions that are small against the largest one.
-void KeepLargeRegions(cv::Mat* inside) {
+// Removes regions that are small against the largest one, and those that lie wholly beside the mat,
+// which are background, where another one lies before it.
+void KeepObjectRegions(const MatEvidence& evidence, cv::Mat* inside) {
   cv::Mat regions, stats, centers;
   const int count = cv::connectedComponentsWithStats(*inside, regions, stats, centers, 8);
+  std::vector<char> before_mat(static_cast<std::size_t>(count), 0);
+  for (int y = 0; y < inside->rows; ++y) {
+    for (int x = 0; x < inside->cols; ++x) {
+      if (*evidence.difference.At(x, y) < 0.0f) continue;
+      before_mat[static_cast<std::size_t>(regions.at<int>(y, x))] = 1;
+    }
+  }
+  const bool any_before =
+      std::find(before_mat.begin() + 1, before_mat.end(), 1) != before_mat.end();
+  const auto may_stay = [&](int region) {
+    return !any_before || before_mat[static_cast<std::size_t>(region)] != 0;
+  };
   int largest = 0;
   for (int i = 1; i < count; ++i) {
-    largest = std::max(largest, stats.at<int>(i, cv::CC_STAT_AREA));
+    if (may_stay(i)) largest = std::max(largest, stats.at<int>(i, cv::CC_STAT_AREA));
   }
   for (int y = 0; y < inside->rows; ++y) {
     for (int x = 0; x < inside->cols; ++x) {
       const int region = regions.at<int>(y, x);
-      if (region > 0 && stats.at<int>(region, cv::CC_STAT_AREA) < 0.03 * largest) {
+      if (region > 0 &&
+          (!may_stay(region) || stats.at<int>(region, cv::CC_STAT_AREA) < 0.03 * largest)) {
         inside->at<std::uint8_t>(y, x) = 0;
       }
     }
@@ -120,7 +135,7 @@ core::FloatImage SegmentOnMat(const core::Image& photo, const MatEvidence& evide
         inside.at<std::uint8_t>(y, x) = labels.at<std::uint8_t>(y, x) & 1;
       }
     }
-    KeepLargeRegions(&inside);
+    KeepObjectRegions(evidence, &inside);
   }
   if (hull.empty() || evidence.expected.pixels.empty()) return Softened(inside);
   core::FloatImage mask(photo.width, photo.height, 1);
@@ -138,6 +153,19 @@ core::FloatImage OpenBesideMat(const core::FloatImage& opacity, const MatEvidenc
     }
   }
   return open;
+}
+
+void ClipBesideMat(const MatEvidence& evidence, const core::FloatImage& hull,
+                   core::FloatImage* opacity) {
+  if (hull.empty()) return;
+  const cv::Mat grown = GrownHull(hull);
+  for (int y = 0; y < opacity->height; ++y) {
+    for (int x = 0; x < opacity->width; ++x) {
+      if (*evidence.difference.At(x, y) < 0.0f && grown.at<std::uint8_t>(y, x) == 0) {
+        *opacity->At(x, y) = 0.0f;
+      }
+    }
+  }
 }
 
 core::FloatImage SilhouetteOf(const core::TriangleMesh& mesh, const core::Camera& camera) {

@@ -21,6 +21,12 @@ core::FloatImage SegmentOnMat(const core::Image& photo, const MatEvidence& evide
 // rests on the mat, says nothing.
 core::FloatImage OpenBesideMat(const core::FloatImage& opacity, const MatEvidence& evidence);
 
+// Sets the opacity to 0 where a pixel lies beside the mat and outside the hull's silhouette (H x W
+// x 1, grown by 3 % of its size): what only one photo shows there is background. Over the mat
+// nothing changes, so that photos which contradict the hull still do.
+void ClipBesideMat(const MatEvidence& evidence, const core::FloatImage& hull,
+                   core::FloatImage* opacity);
+
 // Returns the silhouette of a mesh (H x W x 1), 0 or 1 and softened at the outline.
 core::FloatImage SilhouetteOf(const core::TriangleMesh& mesh, const core::Camera& camera);
 
