@@ -9,6 +9,7 @@
 #include "asset_lift/priors/initial_shape.h"
 #include "capture/view_matte.h"
 #include "core/error.h"
+#include "geometry/weld.h"
 #include "texture/photo_projection.h"
 
 namespace simwright::capture {
@@ -17,6 +18,15 @@ namespace {
 std::string StartName(const StartShape& start) {
   const std::string hull = "the visual hull of " + std::to_string(start.views.size()) + " photos";
   return start.depth_share > 0.0 ? hull + ", carved by stereo," : hull;
+}
+
+// Limits of the share of the hull's volume that stereo carved away, and of the object's pixels
+// whose depth it found, above which the shape rests on depths.
+constexpr double kMostCarved = 0.1, kMostMeasured = 0.25;
+
+double CarvedShare(const Capture& capture, const StartShape& start) {
+  const double hull = geometry::SignedVolume(capture.hull);
+  return hull > 0.0 ? 1.0 - geometry::SignedVolume(start.mesh) / hull : 0.0;
 }
 
 core::Finding StereoFinding(const StartShape& start) {
@@ -66,6 +76,10 @@ asset_lift::LiftedMesh LiftCapture(const Capture& capture, const StartShape& sta
   asset_lift::ShapeFitOptions stages = options.fit;
   stages.field.seed = stages.mesh.seed = options.seed;
   stages.mesh.max_side = options.fit_side;
+  // The least area would close the hollows that stereo found.
+  if (CarvedShare(capture, start) > kMostCarved || start.depth_share > kMostMeasured) {
+    stages.mesh.first_area_weight = stages.mesh.last_area_weight = 0.0;
+  }
   const asset_lift::ShapeFit fit = asset_lift::FitShape(
       start.views, asset_lift::InitialShapeFrom(start.mesh), nullptr, nullptr, stages, progress);
   lifted.findings.insert(lifted.findings.end(), fit.findings.begin(), fit.findings.end());

@@ -27,14 +27,12 @@ std::uint8_t LabelOnMat(float difference, float pattern, bool printed) {
   if (difference < kSureMat && pattern > kRecognisedMat) return cv::GC_BGD;
   // Black resembles the mat in a deep shadow, but a shadow leaves the mat its pattern. (0: the mat
   // is even there.)
-  if (printed && pattern != 0.0f && pattern < kNoPattern && difference > kSureMat) {
-    return difference > kLikelyMat ? cv::GC_FGD : cv::GC_PR_FGD;
-  }
+  const bool without_pattern = printed && pattern != 0.0f && pattern < kNoPattern;
   if (difference > kSureObject && pattern < kNoPattern) return cv::GC_FGD;
   // Thin parts leave the mat's pattern around them.
   if (printed && difference > kCertainObject) return cv::GC_FGD;
   if (difference < kSureObject && pattern > kRecognisedMat) return cv::GC_PR_BGD;
-  return difference < kLikelyMat ? cv::GC_PR_BGD : cv::GC_PR_FGD;
+  return difference < (without_pattern ? kSureMat : kLikelyMat) ? cv::GC_PR_BGD : cv::GC_PR_FGD;
 }
 
 // Returns the hull's silhouette, grown by its margin; empty: there is no hull.

@@ -63,7 +63,7 @@ TEST(StereoLift, MeasuresAHollow) {
       1e3 * without, 1e3 * with, 1e3 * core::Bounds(after.mesh.mesh).sizes().x());
   EXPECT_GT(without, 0.01);
   EXPECT_LT(std::abs(with), 0.002);
-  EXPECT_LT(core::Bounds(after.mesh.mesh).sizes().x(), core::Bounds(before.mesh.mesh).sizes().x());
+  EXPECT_LT(core::Bounds(after.mesh.mesh).sizes().x(), core::Bounds(capture.hull).sizes().x());
   const auto is_stereo = [](const core::Finding& f) { return f.code == "stereo"; };
   const auto said = std::find_if(after.findings.begin(), after.findings.end(), is_stereo);
   ASSERT_NE(said, after.findings.end());
