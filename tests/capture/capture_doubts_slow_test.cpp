@@ -123,10 +123,18 @@ TEST(CaptureDoubts, AMirrorIsSaid) {
         });
     photos.push_back(RenderMatPhotos(mirror, {pose}, PhotoSettings()).front().photo);
   }
-  const Capture capture = CaptureOf(photos);
-  const core::Finding* const said = FindingNamed(capture, "colors-contradict");
-  ASSERT_NE(said, nullptr);
-  EXPECT_NE(said->sentence.find("mirror"), std::string::npos) << said->sentence;
+  // It has no outline of its own where it shows the mat: either its outlines contradict each other,
+  // or its colours do.
+  std::string sentence;
+  try {
+    const Capture capture = CaptureOf(photos);
+    const core::Finding* const said = FindingNamed(capture, "colors-contradict");
+    ASSERT_NE(said, nullptr);
+    sentence = said->sentence;
+  } catch (const core::Error& error) {
+    sentence = error.what();
+  }
+  EXPECT_NE(sentence.find("mirror"), std::string::npos) << sentence;
 }
 
 // The same ball with the room painted on it.
