@@ -246,9 +246,9 @@ void PlaceCamera(double focal, const CategoryPrior& prior, const ShapePrior* sha
 }  // namespace
 
 // Leaves out score distillation: with our small view prior even a weight of 0.003 makes the Chamfer
-// distance worse (docs/experiments/lift.md). The guidance and the times are for those who
-// set weights of their own. One photo does not constrain the hidden side, so the initial shape has
-// more weight than with many views.
+// distance worse (docs/experiments/lift.md). The guidance and the times serve those who set
+// weights of their own. One photo does not constrain the hidden side, so the initial shape has more
+// weight than with many views.
 LiftOptions::LiftOptions() {
   fit.initial_shape_weight = 6.0;
   fit.field.weights.objective = 0.0;

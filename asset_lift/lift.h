@@ -37,8 +37,8 @@ enum class LiftEffort {
 struct LiftOptions {
   LiftEffort effort = LiftEffort::kFull;
   ShapeFitOptions fit;
-  // Score distillation of the two stages. The defaults are gentle, to suit our own view prior;
-  // ConfigureForPublishedViewPrior changes them.
+  // Score distillation of the two stages. Its weights are in `fit`, by default 0, because our own
+  // view prior makes shapes worse; ConfigureForPublishedViewPrior sets them.
   ScoreDistillationOptions field_distillation, mesh_distillation;
   int fit_side = 128;  // pixels per side of the crop that the stages fit
 

@@ -19,7 +19,8 @@ struct CaptureLiftOptions {
 };
 
 // Reconstructs the captured object: its hull, which stands flat on the mat and is carved by stereo
-// (start_shape.h), is fitted to masks, colours and depths and textured from all photos; surfaces
+// (start_shape.h), is fitted to masks, colours and depths and textured from all photos. Of the
+// surfaces that fit, the smallest is preferred, unless stereo carved much of the hull. Surfaces
 // that no photo shows take the fitted colours. In the mat's frame, m; its camera and photo are the
 // first view's. Throws core::Error for a capture without a masked view, and the exceptions of
 // FitShape; core::Cancelled.

@@ -12,8 +12,8 @@ namespace simwright::capture {
 // Segments the object that stands on a mat in one photo (GrabCut, Rother et al. 2004): pixels that
 // look as the mat should are background, pixels that do not are object. `hull`: the silhouette of
 // the hull of all views, which limits the object and tells where to look for it beside the mat;
-// empty: unknown yet. Returns the opacity (H x W x 1), 0 or 1 and softened at the outline. Throws
-// core::Error if sizes differ.
+// empty: unknown yet. Returns the opacity (H x W x 1): 0 or 1, near the outline that of MatteOnMat,
+// or softened where there is no hull yet. Throws core::Error if sizes differ.
 core::FloatImage SegmentOnMat(const core::Image& photo, const MatEvidence& evidence,
                               const core::FloatImage& hull);
 

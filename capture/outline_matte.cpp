@@ -14,12 +14,13 @@ namespace {
 
 constexpr double kBandShare = 0.015;  // of the mask's size, on both sides of its outline
 constexpr double kLeastBand = 3.0;    // pixels
-constexpr float kPixelNoise = 6.0f;   // standard deviation, of 255
-constexpr float kEdgeShare = 0.4f;    // of the mat's change within a pixel, which counts as noise
+constexpr float kMatteNoise = 6.0f;   // standard deviation, of 255
+constexpr float kMatteEdgeShare =
+    0.4f;  // of the mat's change within a pixel, which counts as noise
 constexpr float kLightDeviation = 0.12f;  // of the light from that of the mat around
 constexpr float kMaskWeight = 0.5f;       // of the squared difference from the mask
-constexpr float kLeastLight = 0.25f, kMostLight = 1.1f;
-constexpr float kBlur = 0.7f;  // pixels, of the result
+constexpr float kLeastMatteLight = 0.25f, kMostMatteLight = 1.1f;
+constexpr float kMatteBlur = 0.7f;  // pixels, of the result
 
 float Squared(const cv::Vec3f& v) {
   return v.dot(v);
@@ -58,7 +59,7 @@ class OutlineMatte {
       }
     }
     cv::Mat values(size_, CV_32F, opacity.values.data());
-    cv::GaussianBlur(values, values, {0, 0}, kBlur);
+    cv::GaussianBlur(values, values, {0, 0}, kMatteBlur);
     return opacity;
   }
 
@@ -82,7 +83,8 @@ class OutlineMatte {
       for (int x = 0; x < size_.width; ++x) {
         const float t = total.at<float>(y, x);
         if (t > 1.0f) {
-          light_.at<float>(y, x) = std::clamp(sum.at<float>(y, x) / t, kLeastLight, kMostLight);
+          light_.at<float>(y, x) =
+              std::clamp(sum.at<float>(y, x) / t, kLeastMatteLight, kMostMatteLight);
         }
       }
     }
@@ -118,9 +120,9 @@ class OutlineMatte {
     const cv::Vec3f seen = color_.at<cv::Vec3f>(y, x), full = expected_.at<cv::Vec3f>(y, x);
     const float mask = *mask_.At(x, y) >= 0.5f ? 1.0f : 0.0f;
     const float local = light_.at<float>(y, x);
-    const float noise = kPixelNoise + EdgeAt(x, y);
+    const float noise = kMatteNoise + EdgeAt(x, y);
     float best = 1e9f, opacity = mask;
-    for (float light = kLeastLight; light <= kMostLight; light += 0.05f) {
+    for (float light = kLeastMatteLight; light <= kMostMatteLight; light += 0.05f) {
       const float off = (light - local) / kLightDeviation;
       const cv::Vec3f mat = light * full;
       for (int k = 0; k < count; ++k) {
@@ -151,7 +153,7 @@ class OutlineMatte {
         }
       }
     }
-    return kEdgeShare * std::sqrt(Squared(high - low) / 3.0f);
+    return kMatteEdgeShare * std::sqrt(Squared(high - low) / 3.0f);
   }
 
   const MatEvidence& evidence_;
