@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kHeightOverPage = 1.3;   // the tallest object, in heights of the page
 constexpr int kFirstCells = 72;           // of the first round's hull
+constexpr double kFirstMargin = 0.6;      // cells
 constexpr double kGuessTolerated = 0.65;  // ... and beside the mat
 constexpr double kFirstTolerated = 0.15;  // share of the views whose first masks may be wrong
 
@@ -30,15 +31,22 @@ class MatCapture {
     const Eigen::AlignedBox3d place = ObjectPlace();
     CutOut(place, options_.first_side, {});
     // Beside the mat, first masks are no more than a guess by colour.
-    result_.hull =
-        Hull({Vote(kFirstTolerated, true), Vote(kGuessTolerated, false)}, place, kFirstCells);
+    result_.hull = Hull({FirstVote(), VoteOf(result_.views, kGuessTolerated, {})}, place,
+                        kFirstCells, kFirstMargin);
     const Eigen::AlignedBox3d box = Grown(core::Bounds(result_.hull));
     CutOut(box, options_.crop_side, result_.hull);
-    result_.hull = Hull({Vote(options_.tolerated_views, false)}, box, options_.hull_cells);
+    result_.hull =
+        Hull({VoteOf(result_.views, options_.tolerated_views, {})}, box, options_.hull_cells, 0.0);
     core::ParallelFor(static_cast<int>(result_.views.size()), [&](int i) {
       const auto at = static_cast<std::size_t>(i);
       CaptureView& view = result_.views[at];
-      ClipBesideMat(evidence_[at], SilhouetteOf(result_.hull, view.camera), &view.opacity);
+      const core::FloatImage hull = SilhouetteOf(result_.hull, view.camera);
+      ClipBesideMat(evidence_[at], hull, &view.opacity);
+      // The others tell what this photo cannot.
+      const core::FloatImage& unsure = masks_[at].unsure;
+      for (std::size_t k = 0; k < unsure.values.size(); ++k) {
+        if (unsure.values[k] > 0.0f) view.opacity.values[k] = hull.values[k];
+      }
     });
     progress_->Stage("agreement of the views");
     LeaveOutContradictions(source_, &result_);
@@ -56,15 +64,20 @@ class MatCapture {
   Eigen::AlignedBox3d ObjectPlace() const;
   // Crops all photos to a box and segments them.
   void CutOut(const Eigen::AlignedBox3d& box, int side, const core::TriangleMesh& hull);
-  HullVote Vote(double tolerated, bool open_beside_mat) const;
+  void Segment(const std::vector<core::FloatImage>& silhouettes);
+  void LearnColors();
+  // Returns the vote of the first masks where they are sure and lie before the mat.
+  HullVote FirstVote() const;
   core::TriangleMesh Hull(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
-                          int cells) const;
+                          int cells, double margin) const;
 
   const CaptureSource& source_;
   const CaptureOptions& options_;
   core::Progress* progress_;
-  std::vector<int> shown_;             // the photos that show the mat
-  std::vector<MatEvidence> evidence_;  // one per view
+  std::vector<int> shown_;              // the photos that show the mat
+  std::vector<MatEvidence> evidence_;   // one per view
+  std::vector<ObjectMask> masks_;       // one per view
+  std::optional<ColorMixture> colors_;  // of the object, in all photos
   Capture result_;
 };
 
@@ -114,6 +127,8 @@ void MatCapture::CutOut(const Eigen::AlignedBox3d& box, int side, const core::Tr
   progress_->Stage(hull.empty() ? "first masks" : "masks", static_cast<int>(shown_.size()));
   result_.views.assign(shown_.size(), {});
   evidence_.assign(shown_.size(), {});
+  masks_.assign(shown_.size(), {});
+  std::vector<core::FloatImage> silhouettes(shown_.size());
   core::ParallelFor(static_cast<int>(shown_.size()), [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     const MatCalibration::View& posed = result_.calibration.views[at];
@@ -124,20 +139,52 @@ void MatCapture::CutOut(const Eigen::AlignedBox3d& box, int side, const core::Tr
     view.photo = RemoveDistortion(source_.read(view.index), lens, view.camera);
     evidence_[at] =
         CompareWithMat(view.photo, view.camera, CaptureMatOf(*result_.paper), options_.print_scale);
-    view.opacity =
-        SegmentOnMat(view.photo, evidence_[at],
-                     hull.empty() ? core::FloatImage() : SilhouetteOf(hull, view.camera));
+    if (!hull.empty()) silhouettes[at] = SilhouetteOf(hull, view.camera);
     progress_->Advance();
+  });
+  // Parts that one photo shows beside the mat, another shows before it: their colours tell.
+  if (hull.empty()) {
+    Segment(silhouettes);
+    LearnColors();
+  }
+  Segment(silhouettes);
+}
+
+void MatCapture::Segment(const std::vector<core::FloatImage>& silhouettes) {
+  core::ParallelFor(static_cast<int>(masks_.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    masks_[at] = SegmentOnMat(result_.views[at].photo, evidence_[at], silhouettes[at],
+                              colors_ ? &*colors_ : nullptr);
+    result_.views[at].opacity = masks_[at].opacity;
   });
 }
 
-HullVote MatCapture::Vote(double tolerated, bool open_beside_mat) const {
-  return VoteOf(result_.views, tolerated, open_beside_mat ? evidence_ : std::vector<MatEvidence>());
+void MatCapture::LearnColors() {
+  std::vector<Eigen::Vector3f> sample;
+  for (std::size_t i = 0; i < masks_.size(); ++i) {
+    const std::vector<Eigen::Vector3f> colors =
+        CertainColors(result_.views[i].photo, evidence_[i], masks_[i]);
+    sample.insert(sample.end(), colors.begin(), colors.end());
+  }
+  if (!sample.empty()) colors_.emplace(sample);
+}
+
+HullVote MatCapture::FirstVote() const {
+  std::vector<core::FloatImage> open;
+  for (std::size_t i = 0; i < masks_.size(); ++i) {
+    open.push_back(PixelsBesideMat(evidence_[i]));
+    const std::vector<float>& unsure = masks_[i].unsure.values;
+    for (std::size_t k = 0; k < unsure.size(); ++k) {
+      open[i].values[k] = std::max(open[i].values[k], unsure[k]);
+    }
+  }
+  return VoteOf(result_.views, kFirstTolerated, open);
 }
 
 core::TriangleMesh MatCapture::Hull(const std::vector<HullVote>& votes,
-                                    const Eigen::AlignedBox3d& box, int cells) const {
-  core::TriangleMesh hull = HullOf(votes, box, cells);
+                                    const Eigen::AlignedBox3d& box, int cells,
+                                    double margin) const {
+  core::TriangleMesh hull = HullOf(votes, box, cells, margin);
   if (hull.empty()) {
     throw core::Error(
         "no object stands on the mat in all photos", "capture",

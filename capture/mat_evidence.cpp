@@ -20,7 +20,7 @@ constexpr float kNoise = 6.0f;             // standard deviation of a pixel's va
 constexpr float kEdgeShare = 0.4f;    // of the change across an edge, which a camera's error shows
 constexpr float kUsualShadow = 0.6f;  // share of the light that a soft shadow leaves ...
 constexpr float kDarkestShadow = 0.3f;     // ... and one under an overhang
-constexpr float kShadowDeviation = 0.15f;  // of shadows darker than usual
+constexpr float kShadowDeviation = 0.08f;  // of shadows darker than usual
 
 // Returns the mat's albedo at a point of its plane, or -1 beside the printed area.
 float AlbedoAt(const core::Image& picture, const CaptureMat& mat,
@@ -57,6 +57,25 @@ core::FloatImage AlbedoOf(const core::Camera& camera, const CaptureMat& mat, dou
     }
   });
   return albedo;
+}
+
+// Returns 1 where a photo without an object shows the page beside the printed area.
+core::FloatImage MarginOf(const core::Camera& camera, const CaptureMat& mat, double print_scale) {
+  core::FloatImage margin(camera.width, camera.height, 1);
+  const Eigen::AlignedBox2d printed = mat.Printed();
+  const Eigen::Vector2d half(0.5 * mat.width, 0.5 * mat.height);
+  const Eigen::AlignedBox2d page(-half, half);
+  const Eigen::Vector3d eye = camera.position();
+  core::ParallelFor(camera.height, [&](int y) {
+    for (int x = 0; x < camera.width; ++x) {
+      const Eigen::Vector3d ray = camera.Ray({x + 0.5, y + 0.5});
+      const double t = -eye.z() / ray.z();
+      if (!(t > 0.0)) continue;
+      const Eigen::Vector2d at = (eye + t * ray).head<2>() / print_scale;
+      *margin.At(x, y) = page.contains(at) && !printed.contains(at);
+    }
+  });
+  return margin;
 }
 
 // Returns the side of a square of the mat in the photo at the page's centre, pixels.
@@ -154,6 +173,7 @@ MatEvidence CompareWithMat(const core::Image& photo, const core::Camera& camera,
   }
   MatEvidence evidence;
   evidence.albedo = AlbedoOf(camera, mat, print_scale);
+  evidence.margin = MarginOf(camera, mat, print_scale);
   const cv::Size size(photo.width, photo.height);
   const cv::Mat albedo(size, CV_32F, evidence.albedo.values.data());
   cv::Mat rgb(size, CV_8UC(photo.channels), const_cast<std::uint8_t*>(photo.pixels.data()));

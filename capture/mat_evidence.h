@@ -10,6 +10,7 @@ namespace simwright::capture {
 // The comparison of a photo with the mat that it should show, per pixel.
 struct MatEvidence {
   core::FloatImage albedo;  // (H x W x 1) of the mat, dark 0, light 1; -1 beside it
+  core::FloatImage margin;  // (H x W x 1) 1 on the page's margin, beside what is printed
   // (H x W x 1) the distance of the photo's colour from the mat's, in units of the deviation that
   // noise and shadows explain; -1 beside the mat.
   core::FloatImage difference;

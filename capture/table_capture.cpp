@@ -37,9 +37,11 @@ class TableCapture {
     TakePoses();
     const Eigen::AlignedBox3d place = ObjectPlace();
     CutOut(place, options_.capture.first_side, {});
-    result_.hull = Hull(
-        {VoteOf(result_.views, kWrongFirst, evidence_), VoteOf(result_.views, kWrongBeside, {})},
-        place, kHullCells);
+    std::vector<core::FloatImage> beside;
+    for (const MatEvidence& evidence : evidence_) beside.push_back(PixelsBesideMat(evidence));
+    result_.hull =
+        Hull({VoteOf(result_.views, kWrongFirst, beside), VoteOf(result_.views, kWrongBeside, {})},
+             place, kHullCells);
     for (const int cells : {kHullCells, options_.capture.hull_cells}) {
       const Eigen::AlignedBox3d box = Grown(core::Bounds(result_.hull));
       CutOut(box, options_.capture.crop_side, result_.hull);
@@ -201,7 +203,7 @@ void TableCapture::CutOut(const Eigen::AlignedBox3d& box, int side,
     evidence_[at] = CompareWithTable(views[at], table, i);
     if (hull.empty()) MarkPoints(at, &evidence_[at]);
     result_.views[at].opacity =
-        SegmentOnMat(result_.views[at].photo, evidence_[at], silhouettes[at]);
+        SegmentOnMat(result_.views[at].photo, evidence_[at], silhouettes[at], nullptr).opacity;
     progress_->Advance();
   });
 }
@@ -226,7 +228,7 @@ void TableCapture::MarkPoints(std::size_t view, MatEvidence* evidence) const {
 
 core::TriangleMesh TableCapture::Hull(const std::vector<HullVote>& votes,
                                       const Eigen::AlignedBox3d& box, int cells) const {
-  core::TriangleMesh hull = HullOf(votes, box, cells);
+  core::TriangleMesh hull = HullOf(votes, box, cells, 0.0);
   if (hull.empty()) {
     throw core::Error("no object stands in the middle of all photos", "capture",
                       "leave the object where it stands and move around it, or use a mat "

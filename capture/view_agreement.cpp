@@ -13,6 +13,13 @@ namespace {
 
 constexpr double kLeastAgreement = 0.75;  // IoU of a view's mask and the hull's silhouette
 
+// Raises each value to at least that of `least`.
+void Raise(const core::FloatImage& least, core::FloatImage* values) {
+  for (std::size_t i = 0; i < values->values.size(); ++i) {
+    values->values[i] = std::max(values->values[i], least.values[i]);
+  }
+}
+
 }  // namespace
 
 double MaskIou(const core::FloatImage& a, const core::FloatImage& b) {
@@ -26,7 +33,7 @@ double MaskIou(const core::FloatImage& a, const core::FloatImage& b) {
 }
 
 HullVote VoteOf(const std::vector<CaptureView>& views, double tolerated,
-                const std::vector<MatEvidence>& evidence) {
+                const std::vector<core::FloatImage>& open) {
   HullVote vote;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const core::FloatImage& opacity = views[i].opacity;
@@ -35,7 +42,8 @@ HullVote VoteOf(const std::vector<CaptureView>& views, double tolerated,
     if (!any) continue;
     asset_lift::ObservedView view;
     view.camera = views[i].camera;
-    view.opacity = evidence.empty() ? opacity : OpenBesideMat(opacity, evidence[i]);
+    view.opacity = opacity;
+    if (!open.empty() && !open[i].empty()) Raise(open[i], &view.opacity);
     vote.views.push_back(std::move(view));
   }
   vote.tolerated =
@@ -44,12 +52,12 @@ HullVote VoteOf(const std::vector<CaptureView>& views, double tolerated,
 }
 
 core::TriangleMesh HullOf(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
-                          int cells) {
+                          int cells, double margin) {
   const bool enough = std::all_of(votes.begin(), votes.end(), [](const HullVote& vote) {
     return static_cast<int>(vote.views.size()) > vote.tolerated + 1;
   });
   if (!enough) return {};
-  return VotingHull(votes, box, {cells, 0.0});
+  return VotingHull(votes, box, {cells, 0.0, margin});
 }
 
 Eigen::AlignedBox3d Grown(Eigen::AlignedBox3d box) {

@@ -5,20 +5,21 @@
 #include <Eigen/Geometry>
 
 #include "capture/capture.h"
-#include "capture/mat_evidence.h"
 #include "capture/voting_hull.h"
+#include "core/float_image.h"
 
 namespace simwright::capture {
 
-// Returns the masks that show something, with the share of them that may be wrong. `evidence`: one
-// per view, where it is -1 the masks say nothing (OpenBesideMat); empty: they count everywhere.
+// Returns the masks that show something, with the share of them that may be wrong. `open`: one
+// image per view (H x W x 1), 1 where its mask excludes nothing; one that is empty, or no images:
+// masks count everywhere.
 HullVote VoteOf(const std::vector<CaptureView>& views, double tolerated,
-                const std::vector<MatEvidence>& evidence);
+                const std::vector<core::FloatImage>& open);
 
-// Returns the hull of the votes in a box (m) with `cells` along its longest side, flat on z = 0;
-// empty if nothing is inside or a vote has too few masks.
+// Returns the hull of the votes in a box (m) with `cells` along its longest side, grown by `margin`
+// cells, flat on z = 0; empty if nothing is inside or a vote has too few masks.
 core::TriangleMesh HullOf(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
-                          int cells);
+                          int cells, double margin);
 
 // Returns the intersection of two masks over their union.
 double MaskIou(const core::FloatImage& a, const core::FloatImage& b);

@@ -46,6 +46,7 @@ core::TriangleMesh VotingHull(const std::vector<HullVote>& votes, const Eigen::A
   const std::vector<ConeVote> cones(votes.begin(), votes.end());
   geometry::ScalarGrid field;
   field.cell = box.sizes().maxCoeff() / options.cells;
+  const double margin = options.margin * field.cell;
   // A layer of nodes below the floor closes the surface there.
   field.origin = box.min();
   field.origin.z() = std::max(box.min().z(), options.floor - field.cell);
@@ -64,7 +65,9 @@ core::TriangleMesh VotingHull(const std::vector<HullVote>& votes, const Eigen::A
         for (const auto& plane : options.planes) {
           outside = std::max(outside, -plane.signedDistance(p));
         }
-        for (const ConeVote& vote : cones) outside = std::max(outside, vote.At(p, &distances));
+        for (const ConeVote& vote : cones) {
+          outside = std::max(outside, vote.At(p, &distances) - margin);
+        }
         field.values[field.Index(i, j, k)] = static_cast<float>(outside);
       }
     }

@@ -18,6 +18,8 @@ struct HullVote {
 struct VotingHullOptions {
   int cells = 64;      // along the longest side of the box
   double floor = 0.0;  // m: the object stands on this height; nothing is below it
+  // Cells by which the hull is grown, so that parts thinner than a cell stay.
+  double margin = 0.0;
   // Other planes on which the object stood: nothing is on their negative side.
   std::vector<Eigen::Hyperplane<double, 3>> planes = {};
 };

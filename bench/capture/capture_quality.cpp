@@ -9,11 +9,12 @@
 // --no-stereo leaves out its stereo. Columns: the Chamfer
 // distance (mean of both mean distances between the outer surfaces, in percent of the truth's
 // diagonal, without any alignment: the mat's frame is the truth's) of the hull, of the start
-// without stereo, of the start and of the fitted mesh; the size's error (percent of the longest
-// side); the cameras' position error (percent of the distance); the reprojection error (pixels);
-// masks' IoU (mean, least) and the mean distance of their outlines outside the true ones (pixels);
-// the share of the object's pixels whose depth stereo found (percent), the median and the ninth
-// decile of its error (percent of the diagonal); seconds to the hull, for the start, all.
+// without stereo, of the start and of the fitted mesh; the errors of its diagonal (percent) and of
+// its sides (the largest, percent of the longest); the cameras' position error (percent of the
+// distance); the reprojection error (pixels); masks' IoU (mean, least) and the mean distance of
+// their outlines outside the true ones (pixels); the share of the object's pixels whose depth
+// stereo found (percent), the median and the ninth decile of its error (percent of the diagonal);
+// seconds to the hull, for the start, all.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -216,9 +217,15 @@ void Dump(const fs::path& folder, const CapturedObject& object, const capture::C
   core::WriteFile(folder / (object.name + "_truth.obj"), assets::ObjText(object.mesh.mesh));
 }
 
-double SizeError(const core::TriangleMesh& truth, const core::TriangleMesh& mesh) {
+struct SizeErrors {
+  double scale = 0.0;  // of the diagonal, percent
+  double side = 0.0;   // the largest of a side, percent of the longest side
+};
+
+SizeErrors SizeErrorsOf(const core::TriangleMesh& truth, const core::TriangleMesh& mesh) {
   const Eigen::Vector3d a = core::Bounds(truth).sizes(), b = core::Bounds(mesh).sizes();
-  return 100.0 * (b - a).cwiseAbs().maxCoeff() / a.maxCoeff();
+  return {100.0 * (b.norm() / a.norm() - 1.0),
+          100.0 * (b - a).cwiseAbs().maxCoeff() / a.maxCoeff()};
 }
 
 struct DepthScore {
@@ -278,25 +285,27 @@ double Measure(const CapturedObject& object, const Settings& settings) {
   if (!settings.dump.empty()) {
     core::WriteFile(settings.dump / (object.name + "_start.obj"), assets::ObjText(first.mesh));
   }
-  double fitted = started, size = SizeError(object.mesh.mesh, first.mesh);
+  double fitted = started;
+  SizeErrors size = SizeErrorsOf(object.mesh.mesh, first.mesh);
   double all_seconds = hull_seconds + start_seconds;
   if (!settings.hull_only) {
     const auto begin = std::chrono::steady_clock::now();
     const asset_lift::LiftedMesh lifted = capture::LiftCapture(capture, first, lift, &progress);
     all_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     fitted = ChamferPercent(object.mesh.mesh, lifted.mesh.mesh);
-    size = SizeError(object.mesh.mesh, lifted.mesh.mesh);
+    size = SizeErrorsOf(object.mesh.mesh, lifted.mesh.mesh);
     if (!settings.dump.empty()) {
       core::WriteFile(settings.dump / (object.name + "_fit.obj"),
                       assets::ObjText(lifted.mesh.mesh));
     }
   }
   std::printf(
-      "%-22s %6.2f %6.2f %6.2f %6.2f %6.2f %6.2f %6.3f %6.3f %6.2f %6.1f %6.2f %6.2f %6.1f "
+      "%-22s %6.2f %6.2f %6.2f %+6.2f %6.2f %6.2f %6.2f %6.3f %6.3f %6.2f %6.1f %6.2f %6.2f %6.1f "
       "%6.1f %6.1f\n",
-      object.name.c_str(), hull, started, fitted, size, PositionError(capture, poses),
-      capture.calibration.error, masks.mean, masks.least, masks.bias, 100.0 * first.depth_share,
-      depths.median, depths.ninth_decile, hull_seconds, start_seconds, all_seconds);
+      object.name.c_str(), hull, started, fitted, size.scale, size.side,
+      PositionError(capture, poses), capture.calibration.error, masks.mean, masks.least, masks.bias,
+      100.0 * first.depth_share, depths.median, depths.ninth_decile, hull_seconds, start_seconds,
+      all_seconds);
   std::fflush(stdout);
   return fitted;
 }
@@ -336,9 +345,9 @@ Settings ParseArguments(int count, char** arguments) {
 
 int Main(int count, char** arguments) {
   const Settings settings = ParseArguments(count, arguments);
-  std::printf("%-22s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s\n", "object",
-              "hull", "start", "fit", "size", "camera", "pixels", "iou", "least", "bias", "stereo",
-              "error", "90 %", "s", "start s", "all s");
+  std::printf("%-22s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s\n", "object",
+              "hull", "start", "fit", "scale", "side", "camera", "pixels", "iou", "least", "bias",
+              "stereo", "error", "90 %", "s", "start s", "all s");
   std::vector<double> all;
   std::string names;
   for (const CapturedObject& object : Objects(settings)) {

@@ -49,7 +49,7 @@ RectangleOnMat MakeRectangle(int width, int height, const Eigen::Vector3i& objec
 }
 
 double IouOf(const RectangleOnMat& made) {
-  const core::FloatImage mask = SegmentOnMat(made.photo, made.evidence, {});
+  const core::FloatImage mask = SegmentOnMat(made.photo, made.evidence, {}, nullptr).opacity;
   double both = 0.0, either = 0.0;
   for (std::size_t i = 0; i < mask.values.size(); ++i) {
     const bool a = mask.values[i] >= 0.5f, b = made.truth.values[i] >= 0.5f;
