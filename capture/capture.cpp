@@ -15,11 +15,12 @@
 namespace simwright::capture {
 namespace {
 
-constexpr double kHeightOverPage = 1.3;   // the tallest object, in heights of the page
-constexpr int kFirstCells = 72;           // of the first round's hull
-constexpr double kFirstMargin = 0.6;      // cells
-constexpr double kGuessTolerated = 0.65;  // ... and beside the mat
-constexpr double kFirstTolerated = 0.15;  // share of the views whose first masks may be wrong
+constexpr double kHeightOverPage = 1.3;    // the tallest object, in heights of the page
+constexpr int kFirstCells = 72;            // of the first round's hull
+constexpr double kFirstMargin = 0.6;       // cells, by which that hull is grown
+constexpr double kFirstTolerated = 0.15;   // share of the views whose first masks may be wrong ...
+constexpr double kGuessTolerated = 0.65;   // ... and beside the mat
+constexpr std::size_t kLeastColors = 200;  // pixels in all photos, from which colours are learnt
 
 class MatCapture {
  public:
@@ -40,16 +41,11 @@ class MatCapture {
     core::ParallelFor(static_cast<int>(result_.views.size()), [&](int i) {
       const auto at = static_cast<std::size_t>(i);
       CaptureView& view = result_.views[at];
-      const core::FloatImage hull = SilhouetteOf(result_.hull, view.camera);
-      ClipBesideMat(evidence_[at], hull, &view.opacity);
-      // The others tell what this photo cannot.
-      const core::FloatImage& unsure = masks_[at].unsure;
-      for (std::size_t k = 0; k < unsure.values.size(); ++k) {
-        if (unsure.values[k] > 0.0f) view.opacity.values[k] = hull.values[k];
-      }
+      ClipBesideMat(evidence_[at], SilhouetteOf(result_.hull, view.camera), &view.opacity);
     });
     progress_->Stage("agreement of the views");
     LeaveOutContradictions(source_, &result_);
+    BelieveHullWhereUnsure();
     AdviseMorePhotos(&result_);
     Append(CaptureDoubts(source_, result_, options_.print_scale));
     progress_->Finish();
@@ -68,6 +64,8 @@ class MatCapture {
   void LearnColors();
   // Returns the vote of the first masks where they are sure and lie before the mat.
   HullVote FirstVote() const;
+  // Takes from the hull what a photo cannot tell.
+  void BelieveHullWhereUnsure();
   core::TriangleMesh Hull(const std::vector<HullVote>& votes, const Eigen::AlignedBox3d& box,
                           int cells, double margin) const;
 
@@ -163,10 +161,22 @@ void MatCapture::LearnColors() {
   std::vector<Eigen::Vector3f> sample;
   for (std::size_t i = 0; i < masks_.size(); ++i) {
     const std::vector<Eigen::Vector3f> colors =
-        CertainColors(result_.views[i].photo, evidence_[i], masks_[i]);
+        ColorsBeforeMat(result_.views[i].photo, evidence_[i], masks_[i]);
     sample.insert(sample.end(), colors.begin(), colors.end());
   }
-  if (!sample.empty()) colors_.emplace(sample);
+  if (sample.size() >= kLeastColors) colors_.emplace(sample);
+}
+
+void MatCapture::BelieveHullWhereUnsure() {
+  core::ParallelFor(static_cast<int>(result_.views.size()), [&](int i) {
+    CaptureView& view = result_.views[static_cast<std::size_t>(i)];
+    const auto at = std::find(shown_.begin(), shown_.end(), view.index) - shown_.begin();
+    const std::vector<float>& unsure = masks_[static_cast<std::size_t>(at)].unsure.values;
+    const core::FloatImage hull = SilhouetteOf(result_.hull, view.camera);
+    for (std::size_t k = 0; k < unsure.size(); ++k) {
+      if (unsure[k] > 0.0f) view.opacity.values[k] = hull.values[k];
+    }
+  });
 }
 
 HullVote MatCapture::FirstVote() const {

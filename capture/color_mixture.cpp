@@ -32,26 +32,28 @@ ColorMixture::ColorMixture(const std::vector<Eigen::Vector3f>& sample) {
   cv::kmeans(values.reshape(1), std::min(kClusters, values.rows), labels,
              {cv::TermCriteria::MAX_ITER, kRounds, 0.0}, 1, cv::KMEANS_PP_CENTERS);
   for (int k = 0; k < kClusters; ++k) {
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     int count = 0;
     for (int i = 0; i < values.rows; ++i) {
       if (labels.at<int>(i) != k) continue;
       const cv::Vec3f& v = values.at<cv::Vec3f>(i);
-      const Eigen::Vector3f color(v[0], v[1], v[2]);
+      const Eigen::Vector3d color(v[0], v[1], v[2]);
       sum += color;
       squares += color * color.transpose();
       ++count;
     }
     if (count == 0) continue;
-    const auto n = static_cast<float>(count);
+    const auto n = static_cast<double>(count);
+    const Eigen::Vector3d mean = sum / n;
+    const Eigen::Matrix3d spread = squares / n - mean * mean.transpose();
+    const Eigen::Matrix3f covariance =
+        spread.cast<float>() + kLeastVariance * Eigen::Matrix3f::Identity();
     Gaussian gaussian;
-    gaussian.mean = sum / n;
-    const Eigen::Matrix3f covariance = squares / n - gaussian.mean * gaussian.mean.transpose() +
-                                       kLeastVariance * Eigen::Matrix3f::Identity();
+    gaussian.mean = mean.cast<float>();
     gaussian.inverse = covariance.inverse();
     constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
-    gaussian.factor = (1.0f - kUniformShare) * n / static_cast<float>(values.rows) /
+    gaussian.factor = (1.0f - kUniformShare) * static_cast<float>(n / values.rows) /
                       std::sqrt(kTurn * kTurn * kTurn * covariance.determinant());
     gaussians_.push_back(gaussian);
   }

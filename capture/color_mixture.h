@@ -13,7 +13,7 @@ class ColorMixture {
   // `sample`: RGB in [0, 255]; at least one. Clusters start at random with a fixed seed.
   explicit ColorMixture(const std::vector<Eigen::Vector3f>& sample);
 
-  // Returns minus the logarithm of the density, per unit of 256 levels a channel.
+  // Returns minus the logarithm of the density, per cubed level.
   float Cost(const Eigen::Vector3f& color) const;
 
  private:

@@ -26,6 +26,7 @@ constexpr float kMatNoise = 6.0f;      // of the differences' unit, of 255
 constexpr float kMostDifference = 6.0f;
 constexpr std::size_t kLeastSample = 30;
 constexpr float kCertain = 1e4f;
+constexpr float kUniformCost = 16.6355f;  // log(256^3): a background whose colours are not known
 
 struct Neighbor {
   int dx, dy;
@@ -132,8 +133,8 @@ class Cut {
 
   float BackgroundCost(std::size_t i) const {
     if (!OnMat(i)) {
-      const std::optional<ColorMixture>& mixture = OnMargin(i) ? margin_ : beside_;
-      return mixture ? mixture->Cost(colors_[i]) : 0.0f;
+      const std::optional<ColorMixture>& mixture = OnMargin(i) && margin_ ? margin_ : beside_;
+      return mixture ? mixture->Cost(colors_[i]) : kUniformCost;
     }
     const float difference = std::min(evidence_.difference.values[i], kMostDifference);
     const float pattern = evidence_.pattern.values[i];
@@ -201,10 +202,14 @@ MatCut CutFromMat(const core::Image& photo, const MatEvidence& evidence,
   const auto fits = [&](int width, int height) {
     return width == photo.width && height == photo.height;
   };
+  if (photo.channels < 3) throw core::Error("the photo has no colours", "cut on the mat");
+  if (photo.width < 2 || photo.height < 2)
+    throw core::Error("the photo is empty", "cut on the mat");
   if (labels.size() != static_cast<std::size_t>(photo.width) * photo.height ||
       !fits(evidence.expected.width, evidence.expected.height) ||
       !fits(evidence.difference.width, evidence.difference.height) ||
-      !fits(evidence.pattern.width, evidence.pattern.height)) {
+      !fits(evidence.pattern.width, evidence.pattern.height) ||
+      (!evidence.margin.empty() && !fits(evidence.margin.width, evidence.margin.height))) {
     throw core::Error("photo, mat and labels differ in size", "cut on the mat");
   }
   return Cut(photo, evidence, labels, others).Run();

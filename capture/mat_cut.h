@@ -10,7 +10,8 @@
 
 namespace simwright::capture {
 
-// The belief about a pixel before the cut. Likely ones say where colours are first learnt.
+// The belief about a pixel before the cut: the cut keeps what is not merely likely. Colours are
+// first learnt where a pixel is certainly or likely the one or the other.
 enum class CutLabel : std::uint8_t { kBackground, kLikelyBackground, kLikelyObject, kObject };
 
 struct MatCut {
@@ -25,7 +26,8 @@ struct MatCut {
 // are mixtures learnt from the photo (ColorMixture). Neighbours differ cheaply only across an edge
 // that the mat's pattern does not explain. `photo`: H x W, RGB or RGBA; `evidence`: of a printed
 // mat; `labels`: H x W, row by row; `others`: the object's colours in the other photos, or null.
-// Throws core::Error if sizes differ.
+// Throws core::Error if sizes differ, or for a photo without colours or under 2 pixels wide or
+// high.
 MatCut CutFromMat(const core::Image& photo, const MatEvidence& evidence,
                   const std::vector<CutLabel>& labels, const ColorMixture* others);
 

@@ -23,7 +23,7 @@ struct MatEvidence {
 // Compares a photo (RGB, without distortion) with the mat seen by its camera (mat frame).
 // `print_scale`: MatCalibrationInput. The mat's two colours are measured in the photo, place by
 // place, where the pattern is recognised, so uneven light and soft shadows count as mat. Throws
-// core::Error if photo and camera differ in size.
+// core::Error if photo and camera differ in size, or the photo has no colours.
 MatEvidence CompareWithMat(const core::Image& photo, const core::Camera& camera,
                            const CaptureMat& mat, double print_scale);
 

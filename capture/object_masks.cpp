@@ -154,8 +154,10 @@ ObjectMask SegmentOnMat(const core::Image& photo, const MatEvidence& evidence,
   const int objects = cv::countNonZero(labels & 1);  // certain or not
   ObjectMask result;
   cv::Mat inside(photo.height, photo.width, CV_8U, cv::Scalar(0));
-  if (objects > 0 && objects < photo.width * photo.height) {
-    if (evidence.albedo.empty() || evidence.expected.pixels.empty()) {
+  const bool on_table = evidence.albedo.empty() || evidence.expected.pixels.empty();
+  // GrabCut learns both colours from the labels.
+  if (!on_table || (objects > 0 && objects < photo.width * photo.height)) {
+    if (on_table) {
       inside = GrabbedObject(photo, labels);
     } else {
       MatCut cut = CutFromMat(photo, evidence, CutLabels(labels), others);
@@ -180,8 +182,8 @@ ObjectMask SegmentOnMat(const core::Image& photo, const MatEvidence& evidence,
   return result;
 }
 
-std::vector<Eigen::Vector3f> CertainColors(const core::Image& photo, const MatEvidence& evidence,
-                                           const ObjectMask& mask) {
+std::vector<Eigen::Vector3f> ColorsBeforeMat(const core::Image& photo, const MatEvidence& evidence,
+                                             const ObjectMask& mask) {
   std::vector<Eigen::Vector3f> colors;
   for (int y = 0; y < photo.height; ++y) {
     for (int x = 0; x < photo.width; ++x) {

@@ -27,10 +27,10 @@ struct ObjectMask {
 ObjectMask SegmentOnMat(const core::Image& photo, const MatEvidence& evidence,
                         const core::FloatImage& hull, const ColorMixture* others);
 
-// Returns colours, RGB in [0, 255], of pixels that are certainly the object's: they lie before the
-// mat, and the mat does not explain them.
-std::vector<Eigen::Vector3f> CertainColors(const core::Image& photo, const MatEvidence& evidence,
-                                           const ObjectMask& mask);
+// Returns the colours, RGB in [0, 255], of the mask's pixels that lie before the mat and differ
+// from it by more than noise and shadows explain. `photo` and `evidence`: those of the mask.
+std::vector<Eigen::Vector3f> ColorsBeforeMat(const core::Image& photo, const MatEvidence& evidence,
+                                             const ObjectMask& mask);
 
 // Returns 1 for the pixels beside the mat (H x W x 1): there a first mask, which rests on the mat,
 // says nothing.
