@@ -184,6 +184,11 @@ int WordNet::LexicographerFile(Synset synset) const {
   return node == nodes_.end() ? 0 : node->second.lexicographer_file;
 }
 
+std::vector<WordNet::Synset> WordNet::Hypernyms(Synset synset) const {
+  const auto node = nodes_.find(synset);
+  return node == nodes_.end() ? std::vector<Synset>() : node->second.hypernyms;
+}
+
 bool WordNet::HasNoun(std::string_view word) const {
   return Lookup(std::string(word)) != nullptr;
 }

@@ -34,6 +34,9 @@ class WordNet {
   // 18 person, 20 plant; 0 for an unknown one.
   int LexicographerFile(Synset synset) const;
 
+  // Returns the synsets directly above one; empty for an unknown one.
+  std::vector<Synset> Hypernyms(Synset synset) const;
+
   // Returns how many steps `of` lies above `kind`: 0 for the same synset, unset if it is not above.
   std::optional<int> StepsUp(Synset kind, Synset of) const;
 

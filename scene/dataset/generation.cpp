@@ -7,18 +7,25 @@
 #include "core/parallel.h"
 #include "scene/dataset/tokens.h"
 #include "scene/grammar/scene_sample.h"
+#include "scene/prompt/prompt_drawing.h"
 
 namespace simwright::scene {
 namespace {
+
+// Separates the random streams of prompts from those of scenes.
+constexpr std::uint64_t kPromptSeed = 0x70726f6d7074ull;
 
 struct Made {
   SceneAttempt attempt;
   std::vector<SceneObject> objects;
 };
 
+std::uint64_t StreamOf(const ShardOrigin& origin, size_t attempt) {
+  return (static_cast<std::uint64_t>(origin.part) << 32) + attempt;
+}
+
 Made Attempt(const Generation& generation, const ShardOrigin& origin, size_t index) {
-  const std::uint64_t stream = (static_cast<std::uint64_t>(origin.part) << 32) + index;
-  core::Rng rng = core::StreamRng(origin.seed, stream);
+  core::Rng rng = core::StreamRng(origin.seed, StreamOf(origin, index));
   const SceneSample sample = SampleGrammar(generation.grammar, rng);
   FeasibleScene scene = MakeFeasible(sample.objects, *generation.asset_set, generation.feasibility);
   Made made;
@@ -34,6 +41,25 @@ void Keep(const Made& made, SceneShard* part) {
                       static_cast<size_t>(part->vocabulary.TokenWidth());
   part->tokens.resize(part->tokens.size() + size);
   EncodeScene(made.objects, part->vocabulary, &part->tokens[part->tokens.size() - size]);
+}
+
+// Draws the prompts of all scenes that have none yet. They are drawn from the tokens, so that a
+// shard without prompts gets the same ones as a new shard.
+void AddPrompts(const Generation& generation, SceneShard* part) {
+  if (part->prompts.size() == static_cast<size_t>(part->SceneCount())) return;
+  const PromptDrawing drawing(part->vocabulary, generation.asset_set->Sizes());
+  const size_t size = static_cast<size_t>(part->vocabulary.entries) *
+                      static_cast<size_t>(part->vocabulary.TokenWidth());
+  size_t scene = 0;
+  for (size_t attempt = 0; attempt < part->attempts.size(); ++attempt) {
+    if (!part->attempts[attempt].valid) continue;
+    if (scene >= part->prompts.size()) {
+      core::Rng rng =
+          core::StreamRng(part->origin.seed ^ kPromptSeed, StreamOf(part->origin, attempt));
+      part->prompts.push_back(drawing.Draw(&part->tokens[scene * size], rng).Text());
+    }
+    ++scene;
+  }
 }
 
 [[noreturn]] void GiveUp(const SceneShard& part) {
@@ -56,6 +82,7 @@ void ExtendShard(const Generation& generation, int scenes, SceneShard* part,
                  core::Progress* progress) {
   const int most = generation.attempts_per_scene * scenes;
   int have = part->SceneCount();
+  AddPrompts(generation, part);
   while (have < scenes) {
     if (static_cast<int>(part->attempts.size()) >= most) GiveUp(*part);
     // Each batch has the number of missing scenes, because some attempts fail; results beyond the
@@ -66,6 +93,7 @@ void ExtendShard(const Generation& generation, int scenes, SceneShard* part,
     const auto keep = [&] {
       for (size_t i = 0; i < made.size() && done[i]; ++i) Keep(made[i], part);
       have = part->SceneCount();
+      AddPrompts(generation, part);
     };
     try {
       core::ParallelFor(static_cast<int>(made.size()), [&](int i) {

@@ -22,10 +22,11 @@ struct Generation {
 // Samples scenes, resolves their penetrations and settles them until `part` has `scenes` valid
 // ones. Continues from the contents of `part`, runs in parallel, and gives the same result for any
 // number of threads and interruptions. `part` must have its vocabulary and origin. Attempt k of
-// shard p samples from stream p 2^32 + k of the seed. Advances `progress` by one per new scene; if
-// that throws core::Cancelled, the shard keeps the scenes that were finished before. Throws
-// core::Error for a category without an asset, and, with counts of the failures, if valid scenes
-// are too rare.
+// shard p samples from stream p 2^32 + k of the seed. Draws a prompt for every scene without one,
+// from the same stream of another seed; scenes do not depend on prompts. Advances `progress` by one
+// per new scene; if that throws core::Cancelled, the shard keeps the scenes that were finished
+// before. Throws core::Error for a category without an asset, and, with counts of the failures, if
+// valid scenes are too rare.
 void ExtendShard(const Generation& generation, int scenes, SceneShard* part,
                  core::Progress* progress);
 

@@ -60,11 +60,29 @@ std::vector<SceneAttempt> SceneDataset::Attempts() const {
   return attempts;
 }
 
-std::vector<float> SceneDataset::Read(int first, int count) const {
+void SceneDataset::CheckRange(int first, int count) const {
   if (first < 0 || count < 0 || first > scenes_ - count) {
     throw core::Error("there are " + std::to_string(scenes_) + " scenes, not scene " +
                       std::to_string(first + count - 1));
   }
+}
+
+std::vector<std::string> SceneDataset::ReadPrompts(int first, int count) const {
+  CheckRange(first, count);
+  std::vector<std::string> prompts;
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    const int from = std::max(first - first_[i], 0);
+    const int to = std::min(first + count - first_[i], parts_[i].SceneCount());
+    if (from >= to) continue;
+    const std::vector<std::string> some = parts_[i].Prompts(from, to - from);
+    if (some.empty()) return {};
+    prompts.insert(prompts.end(), some.begin(), some.end());
+  }
+  return prompts;
+}
+
+std::vector<float> SceneDataset::Read(int first, int count) const {
+  CheckRange(first, count);
   std::vector<float> tokens;
   for (size_t i = 0; i < parts_.size(); ++i) {
     const int from = std::max(first - first_[i], 0);

@@ -26,7 +26,13 @@ class SceneDataset {
   // core::Error if the dataset has fewer scenes, or a shard is damaged.
   std::vector<float> Read(int first, int count) const;
 
+  // Returns the prompts of the same scenes, one each; empty if one of their shards has none, which
+  // was written by an earlier version or sampled from a model. Throws core::Error as Read does.
+  std::vector<std::string> ReadPrompts(int first, int count) const;
+
  private:
+  void CheckRange(int first, int count) const;
+
   std::vector<SceneShardFile> parts_;
   std::vector<int> first_;  // first scene of each shard
   int scenes_ = 0;

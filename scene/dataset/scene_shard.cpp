@@ -49,6 +49,11 @@ int SceneShard::SceneCount() const {
 
 void WriteShard(const SceneShard& part, const fs::path& path) {
   const Vocabulary& vocabulary = part.vocabulary;
+  if (!part.prompts.empty() && part.prompts.size() != static_cast<std::size_t>(part.SceneCount())) {
+    throw core::Error("it has " + std::to_string(part.prompts.size()) + " prompts for " +
+                          std::to_string(part.SceneCount()) + " scenes",
+                      path.string());
+  }
   core::Hdf5Writer writer(path);
   core::Hdf5Group& root = writer.root();
   root.SetAttribute("format", kFormat);
@@ -68,6 +73,7 @@ void WriteShard(const SceneShard& part, const fs::path& path) {
        static_cast<std::size_t>(vocabulary.TokenWidth())},
       part.tokens.data(), {.rows_per_chunk = kScenesPerChunk, .gzip = kGzip});
   WriteAttempts(part.attempts, &root);
+  if (!part.prompts.empty()) root.WriteTexts("prompts", part.prompts);
   writer.CommitSealed();
 }
 
@@ -158,8 +164,26 @@ std::vector<float> SceneShardFile::Read(int first, int count) const {
   return tokens;
 }
 
+std::vector<std::string> SceneShardFile::Prompts(int first, int count) const {
+  if (first < 0 || count < 0 || first > scenes_ - count) {
+    throw core::Error("it has " + std::to_string(scenes_) + " scenes, not scene " +
+                          std::to_string(first + count - 1),
+                      path_.string());
+  }
+  const core::Hdf5Reader reader(path_);
+  if (!reader.root().Has("prompts")) return {};
+  const std::vector<std::string> prompts = reader.root().ReadTexts("prompts");
+  if (prompts.size() != static_cast<std::size_t>(scenes_)) {
+    throw core::Error("it has " + std::to_string(prompts.size()) + " prompts for " +
+                          std::to_string(scenes_) + " scenes",
+                      path_.string(),
+                      "delete the file and generate again: only this shard is recomputed");
+  }
+  return {prompts.begin() + first, prompts.begin() + first + count};
+}
+
 SceneShard SceneShardFile::ReadAll() const {
-  return {vocabulary_, origin_, Read(0, scenes_), attempts_};
+  return {vocabulary_, origin_, Read(0, scenes_), attempts_, Prompts(0, scenes_)};
 }
 
 }  // namespace simwright::scene

@@ -51,11 +51,14 @@ struct SceneShard {
   ShardOrigin origin;
   std::vector<float> tokens;  // (scenes x entries x TokenWidth)
   std::vector<SceneAttempt> attempts;
+  // A prompt (scene/prompt) for each scene, in the same order; empty if the shard has none.
+  std::vector<std::string> prompts = {};
 
   int SceneCount() const;
 };
 
-// Writes a shard atomically: to a temporary file that is renamed to `path`. Throws core::Error.
+// Writes a shard atomically: to a temporary file that is renamed to `path`. Throws core::Error,
+// also for prompts whose number is neither 0 nor that of the scenes.
 void WriteShard(const SceneShard& part, const std::filesystem::path& path);
 
 // A shard in its file; scenes are read on demand. Every member throws core::Error, naming the file,
@@ -72,6 +75,8 @@ class SceneShardFile {
 
   // Returns the tokens of scenes first .. first + count - 1, each validated with ValidateTokens.
   std::vector<float> Read(int first, int count) const;
+  // Returns the prompts of scenes first .. first + count - 1; empty if the file has none.
+  std::vector<std::string> Prompts(int first, int count) const;
   SceneShard ReadAll() const;
 
  private:

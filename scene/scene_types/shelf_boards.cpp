@@ -6,11 +6,10 @@
 namespace simwright::scene {
 namespace {
 
-constexpr double kMiddle = 0.407;                         // m above the base, with 17 mm of board
-                                                          // below it
-constexpr double kBoards[] = {-0.39, -0.12, 0.14, 0.41};  // m, from the middle
-constexpr double kShelfBoardsWall = 0.015;                // m, thickness of the shelf's sides and
-                                                          // back
+constexpr double kMiddle = 0.407;  // m above the base, with 17 mm of board below it
+constexpr std::array<double, 4> kBoards = {kMiddle - 0.39, kMiddle - 0.12, kMiddle + 0.14,
+                                           kMiddle + 0.41};
+constexpr double kShelfBoardsWall = 0.015;  // m, thickness of the shelf's sides and back
 
 // Returns a uniform rule over a board of that half size, with the margin `around` from its walls.
 PoseRule Uniform(const Eigen::Vector2d& board, const Eigen::Vector2d& around) {
@@ -21,13 +20,17 @@ PoseRule Uniform(const Eigen::Vector2d& board, const Eigen::Vector2d& around) {
 
 }  // namespace
 
+const std::array<double, 4>& ShelfBoardHeights() {
+  return kBoards;
+}
+
 void AddShelf(const std::string& category, const CategorySizes& sizes, const std::string& board,
               const std::string& top_board, GrammarBuilder* builder) {
   SizeOf(sizes, category);  // throws for an unknown category
   std::vector<Child> boards;
   for (const double height : kBoards) {
-    const bool top = height == kBoards[3];
-    boards.push_back(Always(top ? top_board : board, Offset(0.0, 0.0, kMiddle + height)));
+    const bool top = height == kBoards.back();
+    boards.push_back(Always(top ? top_board : board, Offset(0.0, 0.0, height)));
   }
   builder->And(Welded("shelf", category), boards);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "scene/grammar/category_size.h"
@@ -11,6 +12,9 @@ namespace simwright::scene {
 // upper sides support objects (Pfaff et al., appendix: -0.39, -0.12, 0.14 and 0.41 m from its
 // middle). The published height, 0.783 m, is that of its sides, which stand on the lowest board and
 // carry the uppermost.
+
+// Returns the heights of the upper sides of the boards above the base, from the lowest board up, m.
+const std::array<double, 4>& ShelfBoardHeights();
 
 // Adds the symbol "shelf", welded, of the category `category`, whose three lower boards are the
 // symbol `board` and whose uppermost is `top_board`; the caller defines both as surfaces.

@@ -139,7 +139,9 @@ SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Prog
     if (!claim.held()) continue;
     scene::SceneShard part = PartAt(path, vocabulary, origin);
     for (int i = 0; i < std::min(scenes, part.SceneCount()); ++i) progress->Advance();
-    if (part.SceneCount() >= scenes) continue;
+    // A shard of an earlier version lacks prompts; they are added.
+    const bool has_prompts = part.prompts.size() == static_cast<size_t>(part.SceneCount());
+    if (part.SceneCount() >= scenes && has_prompts) continue;
     MakePart(generation, scenes, path, std::move(part), progress);
   }
   progress->Finish();
