@@ -1,0 +1,493 @@
+#include "scene/prompt/prompt_parser.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "scene/prompt/object_names.h"
+#include "scene/prompt/prompt.h"
+
+namespace simwright::scene {
+namespace {
+
+using Kind = PromptItemKind;
+
+constexpr int kBarePlural = 3;           // objects of "apples"
+constexpr size_t kMostMentioned = 20;    // objects of one mention that statements are made about
+constexpr size_t kMostStatements = 200;  // per prompt
+constexpr size_t kMostNotes = 50;
+
+// The words before a name: how many, and whether it is an object that was mentioned before.
+struct Quantity {
+  std::optional<int> number;
+  std::optional<PromptItem> vague;
+  int ordinal = 0;
+  bool article = false, another = false, definite = false, one_of = false;
+  std::string words;
+
+  bool Any() const { return number || vague || ordinal > 0 || article || definite || one_of; }
+};
+
+// A relation whose object has not been read yet.
+struct OpenRelation {
+  PromptItem item;
+  Mention subject;
+  bool inverted = false;  // "on the plate is ...": the object comes before the subject
+  bool ignored = false;   // its subject is not known, or it is negated
+  Mention object;         // of an inverted relation
+};
+
+class PromptParser {
+ public:
+  PromptParser(const std::vector<PromptItem>& items, const NameLookup& lookup)
+      : items_(items), lookup_(lookup) {}
+
+  ParsedPrompt Parse() {
+    BeginSentence();
+    while (at_ < items_.size()) Read(items_[at_]);
+    return std::move(parsed_);
+  }
+
+ private:
+  // Each of these reads the item at `at_` and advances it.
+  void Read(const PromptItem& item);
+  void ReadQuantity(const PromptItem& item);
+  void ReadName(const PromptItem& item);
+  void ReadTotal(const PromptItem& item);
+  void ReadOthers(const PromptItem& item);
+  void ReadRelation(const PromptItem& item);
+  void ReadTier(const PromptItem& item);
+  void ReadPronoun();
+  void ReadJoint(const PromptItem& item);
+  void ReadUnknown();
+
+  void BeginSentence();
+  MentionedName& StateOf(int name);
+  Mention Resolve(const PromptItem& item);
+  Mention Add(MentionedName* state, int count, const std::string& words);
+  Mention FirstOf(int name, int count) const;
+  Mention SubjectOfStatement() const;
+  void CloseRelation(const Mention& object);
+  void AddRelations(const Mention& subject, const PromptItem& relation, const Mention& object);
+  void AddTiers(const Mention& subject, ShelfTier tier);
+  void Note(const char* code, core::Severity severity, const std::string& sentence);
+  bool NextIs(Kind kind) const { return at_ + 1 < items_.size() && items_[at_ + 1].kind == kind; }
+  void Drop() { quantity_ = {}; }
+
+  const std::vector<PromptItem>& items_;
+  const NameLookup& lookup_;
+  size_t at_ = 0;
+  ParsedPrompt parsed_;
+  Quantity quantity_;
+  bool none_ = false, without_ = false, not_ = false;
+  std::string none_words_;
+  bool statement_ = false;        // this sentence says where objects are
+  Mention mention_, previous_;    // the last two mentions of the sentence
+  Mention joined_;                // all mentions since the last statement
+  Mention last_subject_;          // of the last statement
+  bool are_ = false;              // "are" was read after joined_
+  bool closed_ = false;           // a statement was completed by the last mention
+  bool continued_ = false;        // and "and" or a comma follows
+  bool unknown_subject_ = false;  // the last mention was of an unknown object
+  std::optional<OpenRelation> open_;
+  std::optional<PromptItem> closed_relation_;
+  std::optional<ShelfTier> open_tier_;  // "on the top shelf there are ..."
+};
+
+void PromptParser::Note(const char* code, core::Severity severity, const std::string& sentence) {
+  const auto same = [&](const core::Finding& one) { return one.sentence == sentence; };
+  core::Findings& findings = parsed_.findings;
+  if (findings.size() >= kMostNotes || std::any_of(findings.begin(), findings.end(), same)) return;
+  findings.push_back({code, severity, "prompt", sentence});
+}
+
+void PromptParser::BeginSentence() {
+  quantity_ = {};
+  none_ = without_ = not_ = are_ = closed_ = continued_ = unknown_subject_ = false;
+  mention_.clear();
+  previous_.clear();
+  joined_.clear();
+  open_.reset();
+  open_tier_.reset();
+  statement_ = false;
+  bool is = false, related = false;
+  for (size_t i = at_; i < items_.size() && items_[i].kind != Kind::kStop; ++i) {
+    is = is || items_[i].kind == Kind::kIs || items_[i].kind == Kind::kAre;
+    related = related || items_[i].kind == Kind::kRelation || items_[i].kind == Kind::kTier;
+    if (items_[i].kind == Kind::kThere) return;
+  }
+  statement_ = is && related;
+}
+
+void PromptParser::Read(const PromptItem& item) {
+  switch (item.kind) {
+    case Kind::kName:
+      return ReadName(item);
+    case Kind::kTotal:
+      return ReadTotal(item);
+    case Kind::kOthers:
+    case Kind::kNoOthers:
+      return ReadOthers(item);
+    case Kind::kRelation:
+      return ReadRelation(item);
+    case Kind::kTier:
+      return ReadTier(item);
+    case Kind::kPronoun:
+      return ReadPronoun();
+    case Kind::kUnknown:
+      return ReadUnknown();
+    case Kind::kNumber:
+    case Kind::kVague:
+    case Kind::kNone:
+    case Kind::kNot:
+    case Kind::kArticle:
+    case Kind::kThe:
+    case Kind::kOneOf:
+    case Kind::kOrdinal:
+      return ReadQuantity(item);
+    default:
+      return ReadJoint(item);
+  }
+}
+
+void PromptParser::ReadQuantity(const PromptItem& item) {
+  ++at_;
+  quantity_.words += (quantity_.words.empty() ? "" : " ") + item.words;
+  if (item.kind == Kind::kNumber && item.number > 0) quantity_.number = item.number;
+  if (item.kind == Kind::kVague) quantity_.vague = item;
+  if (item.kind == Kind::kNot) not_ = true;
+  if (item.kind == Kind::kThe) quantity_.definite = true;
+  if (item.kind == Kind::kOneOf) quantity_.one_of = true;
+  if (item.kind == Kind::kOrdinal) quantity_.ordinal = item.number;
+  if (item.kind == Kind::kArticle) {
+    quantity_.article = true;
+    quantity_.another = item.words.size() > 2;
+  }
+  if (item.kind == Kind::kNone || (item.kind == Kind::kNumber && item.number == 0)) {
+    none_ = true;
+    without_ = item.words.starts_with("without");
+    none_words_ = item.words;
+  }
+}
+
+// Reads what joins mentions, and words that only end a list.
+void PromptParser::ReadJoint(const PromptItem& item) {
+  ++at_;
+  switch (item.kind) {
+    case Kind::kStop:
+      BeginSentence();
+      break;
+    case Kind::kAnd:
+    case Kind::kComma:
+      if (!(without_ && at_ < items_.size() && items_[at_].kind == Kind::kName)) none_ = false;
+      continued_ = continued_ || closed_;
+      if (item.kind == Kind::kComma) Drop();
+      break;
+    case Kind::kAre:
+      are_ = true;
+      break;
+    case Kind::kPlace:
+      if (open_) {
+        last_subject_ = open_->subject;
+        closed_ = true;
+        closed_relation_.reset();
+        open_.reset();
+      }
+      Drop();
+      break;
+    default:
+      break;
+  }
+}
+
+MentionedName& PromptParser::StateOf(int name) {
+  for (MentionedName& state : parsed_.names) {
+    if (state.name == name) return state;
+  }
+  parsed_.names.push_back({});
+  parsed_.names.back().name = name;
+  return parsed_.names.back();
+}
+
+Mention PromptParser::FirstOf(int name, int count) const {
+  Mention mention;
+  for (int i = 1; i <= count && mention.size() < kMostMentioned; ++i) mention.push_back({name, i});
+  return mention;
+}
+
+// Adds objects to those asked for and returns them.
+Mention PromptParser::Add(MentionedName* state, int count, const std::string& words) {
+  const std::string& name = lookup_.names()[static_cast<size_t>(state->name)];
+  if (state->asked > kMostPromptObjects - count) {
+    throw core::Error(
+        "more than " + std::to_string(kMostPromptObjects) + " " + PluralOf(name) + " are asked for",
+        "prompt", "ask for fewer");
+  }
+  if (state->asked > 0) {
+    Note("prompt-repeated-name", core::Severity::kInfo,
+         PluralOf(name) + " are asked for more than once; the numbers are added");
+    state->asked_words += "\" and \"" + words;
+  } else {
+    state->asked_words = words;
+  }
+  Mention mention;
+  for (int i = 1; i <= count && mention.size() < kMostMentioned; ++i) {
+    mention.push_back({state->name, state->asked + i});
+  }
+  state->asked += count;
+  return mention;
+}
+
+// Returns the objects that a name with its quantity means.
+Mention PromptParser::Resolve(const PromptItem& item) {
+  MentionedName& state = StateOf(item.match.name);
+  const std::string words = (quantity_.words.empty() ? "" : quantity_.words + " ") + item.words;
+  const int known = std::max(state.asked, state.implied);
+  const bool plural = item.match.plural;
+  const auto imply = [&](int count) {
+    if (count > state.implied) state.implied_words = words;
+    state.implied = std::max(state.implied, count);
+  };
+  if (quantity_.one_of) {
+    imply(2);
+    return {{state.name, 0}};
+  }
+  if (quantity_.ordinal > 0 && !quantity_.number) {
+    if (quantity_.ordinal > kMostPromptObjects) throw core::Error("an ordinal is too large", words);
+    imply(quantity_.ordinal);
+    state.numbered = true;
+    return {{state.name, quantity_.ordinal}};
+  }
+  if (quantity_.number && !(quantity_.definite && known >= *quantity_.number)) {
+    return Add(&state, *quantity_.number, words);
+  }
+  if (quantity_.number) return FirstOf(state.name, *quantity_.number);
+  const bool before = quantity_.definite || (statement_ && known > 0 && !quantity_.another);
+  if (before && !quantity_.vague) {
+    imply(plural ? std::max(2, known) : 1);
+    const int count = std::max(state.asked, state.implied);
+    if (plural) return FirstOf(state.name, count);
+    return {{state.name, count == 1 ? 1 : 0}};
+  }
+  int count = 1;
+  if (plural) count = quantity_.vague ? quantity_.vague->number : kBarePlural;
+  if (count > 1) {
+    Note("prompt-number-chosen", core::Severity::kInfo,
+         "\"" + words + "\" is read as " +
+             CountedName(count, lookup_.names()[static_cast<size_t>(state.name)]));
+  }
+  return Add(&state, count, words);
+}
+
+void PromptParser::ReadName(const PromptItem& item) {
+  const std::string& name = lookup_.names()[static_cast<size_t>(item.match.name)];
+  // "apple pie": the second word is the object.
+  if (!item.match.plural && NextIs(Kind::kUnknown) &&
+      lookup_.IsPhysicalNoun(items_[at_ + 1].words)) {
+    return ReadUnknown();
+  }
+  if (!item.match.exact) {
+    Note("prompt-synonym", core::Severity::kInfo,
+         "\"" + item.words + "\" is read as \"" + name + "\"");
+  }
+  ++at_;
+  if (none_ || (not_ && !open_)) {
+    MentionedName& state = StateOf(item.match.name);
+    state.none = true;
+    state.none_words = (none_ ? none_words_ : "not") + " " + item.words;
+    Drop();
+    mention_.clear();
+    return;
+  }
+  const bool definite = quantity_.definite || quantity_.ordinal > 0;
+  Mention mention = Resolve(item);
+  Drop();
+  unknown_subject_ = false;
+  if (open_ && !open_->inverted) return CloseRelation(mention);
+  if (open_ && open_->object.empty()) {
+    open_->object = mention;
+  } else if (open_) {
+    AddRelations(mention, open_->item, open_->object);
+  }
+  const bool is_subject = at_ < items_.size() &&
+                          (items_[at_].kind == Kind::kIs || items_[at_].kind == Kind::kAre ||
+                           items_[at_].kind == Kind::kRelation || items_[at_].kind == Kind::kTier);
+  if (continued_ && closed_relation_ && definite && !is_subject) {
+    // "next to the plate and the bowl"
+    AddRelations(last_subject_, *closed_relation_, mention);
+    return;
+  }
+  if (open_tier_) AddTiers(mention, *open_tier_);
+  closed_ = continued_ = are_ = false;
+  previous_ = std::move(mention_);
+  mention_ = mention;
+  joined_.insert(joined_.end(), mention.begin(), mention.end());
+}
+
+void PromptParser::ReadTotal(const PromptItem& item) {
+  ++at_;
+  std::optional<int> total = quantity_.number;
+  if (none_) total = 0;
+  const bool singular = !item.words.ends_with("s");
+  if (!total && quantity_.article && singular) total = 1;
+  if (!total && quantity_.vague && !singular) {
+    total = quantity_.vague->total;
+    Note("prompt-number-chosen", core::Severity::kInfo,
+         "\"" + quantity_.words + " " + item.words + "\" is read as " + std::to_string(*total) +
+             " objects");
+  }
+  const std::string words = quantity_.words + " " + item.words;
+  none_ = false;
+  Drop();
+  mention_.clear();
+  open_.reset();
+  if (!total) return;
+  if (parsed_.total && *parsed_.total != *total) {
+    throw core::Error("\"" + parsed_.total_words + "\" contradicts \"" + words + "\"", "prompt",
+                      "state one number of objects");
+  }
+  parsed_.total = total;
+  parsed_.total_words = words;
+}
+
+void PromptParser::ReadOthers(const PromptItem& item) {
+  ++at_;
+  const bool before_name = at_ < items_.size() && items_[at_].kind == Kind::kName;
+  if (before_name && item.words.ends_with("more")) return;  // "two more apples"
+  if (item.kind == Kind::kNoOthers || none_) {
+    parsed_.no_others = true;
+  } else {
+    parsed_.others = true;
+    if (quantity_.number) parsed_.other_count += *quantity_.number;
+  }
+  none_ = false;
+  Drop();
+  open_.reset();
+}
+
+Mention PromptParser::SubjectOfStatement() const {
+  if (continued_) return last_subject_;
+  return are_ ? joined_ : mention_;
+}
+
+void PromptParser::ReadRelation(const PromptItem& item) {
+  ++at_;
+  const Mention subject = SubjectOfStatement();
+  const bool negated = not_;
+  not_ = false;
+  Drop();
+  if (item.has_object) {
+    if (!negated) AddRelations(mention_, item, previous_);
+    return;
+  }
+  OpenRelation open;
+  open.item = item;
+  open.subject = subject;
+  open.ignored = negated || unknown_subject_;
+  open.inverted = subject.empty() && !open.ignored;
+  if (negated) {
+    Note("prompt-statement-ignored", core::Severity::kWarning,
+         "a negated statement (\"not " + item.words + "\") is not understood and ignored");
+  }
+  open_ = std::move(open);
+}
+
+void PromptParser::CloseRelation(const Mention& object) {
+  const OpenRelation open = std::move(*open_);
+  open_.reset();
+  if (!open.ignored) AddRelations(open.subject, open.item, object);
+  last_subject_ = open.subject;
+  closed_relation_ = open.item;
+  closed_ = !open.ignored;
+  continued_ = are_ = false;
+  joined_.clear();
+  previous_ = open.subject;
+  mention_ = object;
+}
+
+void PromptParser::ReadTier(const PromptItem& item) {
+  ++at_;
+  const Mention subject = SubjectOfStatement();
+  if (not_) {
+    Note("prompt-statement-ignored", core::Severity::kWarning,
+         "a negated statement (\"not " + item.words + "\") is not understood and ignored");
+  } else if (subject.empty() && !unknown_subject_) {
+    open_tier_ = item.tier;
+  } else {
+    AddTiers(subject, item.tier);
+  }
+  not_ = false;
+  Drop();
+  last_subject_ = subject;
+  closed_relation_.reset();
+  closed_ = true;
+  continued_ = are_ = false;
+  joined_.clear();
+}
+
+void PromptParser::ReadPronoun() {
+  ++at_;
+  if (open_ && !open_->inverted) {
+    const Mention object = open_->subject == mention_ ? previous_ : mention_;
+    return CloseRelation(object);
+  }
+  if (mention_.empty()) mention_ = last_subject_;
+  joined_ = mention_;
+}
+
+// Reads a run of unknown words, or a known name that is part of a longer one.
+void PromptParser::ReadUnknown() {
+  std::string words;
+  bool physical = false;
+  for (; at_ < items_.size(); ++at_) {
+    const PromptItem& item = items_[at_];
+    const bool part = words.empty() || item.kind == Kind::kUnknown;
+    if (!part) break;
+    words += (words.empty() ? "" : " ") + item.words;
+    physical = physical || lookup_.IsPhysicalNoun(item.words);
+  }
+  if (at_ < items_.size() && items_[at_].kind == Kind::kName) {
+    Note("prompt-word-ignored", core::Severity::kInfo,
+         "\"" + words + "\" before \"" + items_[at_].words + "\" is ignored");
+    return;
+  }
+  if (!physical && !quantity_.Any() && !none_) {
+    parsed_.ignored.push_back(words);
+    return;
+  }
+  parsed_.unknown.push_back(words);
+  if (open_) open_->ignored = true;
+  open_.reset();
+  unknown_subject_ = true;
+  mention_.clear();
+  Drop();
+}
+
+void PromptParser::AddRelations(const Mention& subject, const PromptItem& relation,
+                                const Mention& object) {
+  for (const MentionedObject& a : relation.reversed ? object : subject) {
+    for (const MentionedObject& b : relation.reversed ? subject : object) {
+      const MentionedRelation one{a, relation.relation, b};
+      const auto& all = parsed_.relations;
+      const bool known = std::find(all.begin(), all.end(), one) != all.end();
+      if (a == b || known || all.size() >= kMostStatements) continue;
+      parsed_.relations.push_back(one);
+    }
+  }
+}
+
+void PromptParser::AddTiers(const Mention& subject, ShelfTier tier) {
+  for (const MentionedObject& a : subject) {
+    const MentionedTier one{a, tier};
+    const auto& all = parsed_.tiers;
+    const bool known = std::find(all.begin(), all.end(), one) != all.end();
+    if (!known && all.size() < kMostStatements) parsed_.tiers.push_back(one);
+  }
+}
+
+}  // namespace
+
+ParsedPrompt ParsePrompt(const std::vector<PromptItem>& items, const NameLookup& lookup) {
+  return PromptParser(items, lookup).Parse();
+}
+
+}  // namespace simwright::scene
