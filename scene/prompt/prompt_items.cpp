@@ -86,7 +86,7 @@ std::pair<int, size_t> WordsValue(const std::vector<PromptWord>& words, size_t a
 
 // Returns the value of "21st" or "3rd", 0 for other words.
 int OrdinalDigits(const std::string& word) {
-  if (word.size() < 3 || word.size() > 6) return 0;
+  if (word.size() < 3 || word.size() > 11) return 0;
   const std::string digits = word.substr(0, word.size() - 2), ending = word.substr(digits.size());
   if (digits.find_first_not_of("0123456789") != std::string::npos) return 0;
   const bool is_ordinal = ending == "st" || ending == "nd" || ending == "rd" || ending == "th";

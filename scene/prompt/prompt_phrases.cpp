@@ -152,7 +152,7 @@ void AddFunctionWords(PhraseTable* table) {
              {"there is", "there are", "there should be", "there must be", "add", "include"},
              table);
   AddPhrases(ItemOf(Kind::kAnd), {"and", "plus", "as well as", "and also"}, table);
-  AddPhrases(ItemOf(Kind::kOr), {"or", "nor", "and no", "or any"}, table);
+  AddPhrases(ItemOf(Kind::kOr), {"or", "nor", "or any"}, table);
   AddPhrases(ItemOf(Kind::kPlace),
              {"table",      "tables",      "tabletop",        "shelf",        "shelves",
               "scene",      "room",        "kitchen",         "floor",        "pantry",

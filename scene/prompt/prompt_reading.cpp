@@ -106,6 +106,7 @@ void SetTotal(const ParsedPrompt& parsed, Prompt* prompt) {
     }
     total = sum + parsed.other_count;
   }
+  if (!total && sum == 0 && !prompt->and_others) total = 0;  // "no cups and nothing else"
   if (!total) return;
   if (sum > *total) RejectContradiction(parsed.total_words, words);
   if (*total > kMostPromptObjects) throw core::Error("too many objects are asked for", "prompt");
