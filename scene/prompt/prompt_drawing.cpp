@@ -101,43 +101,62 @@ std::vector<ObjectReference> ReferencesOf(const NamedScene& scene) {
   return references;
 }
 
-// Draws one statement and removes its pair from the candidates. Requires one.
-void DrawStatement(const std::vector<ObjectReference>& references, StatementCandidates* found,
-                   core::Rng& rng, Prompt* prompt) {
-  std::vector<size_t> kinds;
-  for (size_t k = 0; k < found->size(); ++k) {
-    if (!(*found)[k].empty()) kinds.push_back(k);
-  }
-  const size_t kind =
-      kinds[static_cast<size_t>(core::UniformIndex(rng, static_cast<std::int64_t>(kinds.size())))];
-  const std::vector<StatementCandidate>& some = (*found)[kind];
-  const StatementCandidate one =
-      some[static_cast<size_t>(core::UniformIndex(rng, static_cast<std::int64_t>(some.size())))];
-  const ObjectReference& subject = references[static_cast<size_t>(one.subject)];
-  if (kind == kTierKind) {
-    prompt->tiers.push_back({subject, one.tier});
-  } else {
-    prompt->relations.push_back(
-        {subject, static_cast<Relation>(kind), references[static_cast<size_t>(one.object)]});
-  }
-  for (std::vector<StatementCandidate>& candidates : *found) {
-    std::erase_if(candidates, [&](const StatementCandidate& other) {
+// Removes one of the candidates and returns it. Requires one.
+StatementCandidate TakeCandidate(std::vector<StatementCandidate>* candidates, core::Rng& rng) {
+  const auto index =
+      static_cast<size_t>(core::UniformIndex(rng, static_cast<std::int64_t>(candidates->size())));
+  std::swap((*candidates)[index], candidates->back());
+  const StatementCandidate one = candidates->back();
+  candidates->pop_back();
+  return one;
+}
+
+// Draws a statement about a pair that is not among `drawn`: its kind, then one of that kind.
+// Returns false if there is none.
+bool DrawStatement(const std::vector<ObjectReference>& references, StatementCandidates* found,
+                   std::vector<StatementCandidate>* drawn, core::Rng& rng, Prompt* prompt) {
+  const auto is_drawn = [&](const StatementCandidate& one) {
+    return std::any_of(drawn->begin(), drawn->end(), [&](const StatementCandidate& other) {
       return (other.subject == one.subject && other.object == one.object) ||
              (other.subject == one.object && other.object == one.subject);
     });
+  };
+  while (true) {
+    std::array<size_t, kRelationCount + 1> kinds;
+    std::int64_t kind_count = 0;
+    for (size_t k = 0; k < found->size(); ++k) {
+      if (!(*found)[k].empty()) kinds[static_cast<size_t>(kind_count++)] = k;
+    }
+    if (kind_count == 0) return false;
+    const size_t kind = kinds[static_cast<size_t>(core::UniformIndex(rng, kind_count))];
+    while (!(*found)[kind].empty()) {
+      const StatementCandidate one = TakeCandidate(&(*found)[kind], rng);
+      if (is_drawn(one)) continue;
+      drawn->push_back(one);
+      const ObjectReference& subject = references[static_cast<size_t>(one.subject)];
+      if (kind == kTierKind) {
+        prompt->tiers.push_back({subject, one.tier});
+      } else {
+        prompt->relations.push_back(
+            {subject, static_cast<Relation>(kind), references[static_cast<size_t>(one.object)]});
+      }
+      return true;
+    }
   }
 }
 
 void DrawStatements(const NamedScene& scene, const PromptDrawingOptions& options,
                     const std::vector<char>& named, core::Rng& rng, Prompt* prompt) {
   StatementCandidates found = FindStatements(scene, named);
-  const auto any = [&] {
-    return std::any_of(found.begin(), found.end(), [](const auto& some) { return !some.empty(); });
-  };
-  if (!any()) return;
+  if (std::all_of(found.begin(), found.end(), [](const auto& some) { return some.empty(); })) {
+    return;
+  }
   const std::vector<ObjectReference> references = ReferencesOf(scene);
+  std::vector<StatementCandidate> drawn;
   const auto count = 1 + core::UniformIndex(rng, options.most_relations);
-  for (std::int64_t i = 0; i < count && any(); ++i) DrawStatement(references, &found, rng, prompt);
+  for (std::int64_t i = 0; i < count; ++i) {
+    if (!DrawStatement(references, &found, &drawn, rng, prompt)) break;
+  }
   prompt->kind = PromptKind::kRelations;
 }
 

@@ -140,9 +140,47 @@ TEST(SceneDataset, ReadsAcrossItsParts) {
   EXPECT_EQ(SceneDataset(folder.path() / ShardName(1)).SceneCount(), 6);
 }
 
+// Returns a shard whose scene i has the prompt "prompt NUMBER i".
+SceneShard PartWithPrompts(int number, int scenes) {
+  SceneShard part = Part(number, scenes);
+  for (int i = 0; i < scenes; ++i) {
+    part.prompts.push_back("prompt " + std::to_string(number) + " " + std::to_string(i));
+  }
+  return part;
+}
+
+TEST(SceneDataset, ReadsPromptsAcrossItsParts) {
+  const core::TemporaryFolder folder;
+  for (int i = 0; i < 2; ++i) WriteShard(PartWithPrompts(i, 3), folder.path() / ShardName(i));
+  {
+    const SceneDataset dataset(folder.path());
+    EXPECT_EQ(dataset.ReadPrompts(1, 3),
+              (std::vector<std::string>{"prompt 0 1", "prompt 0 2", "prompt 1 0"}));
+    EXPECT_TRUE(dataset.ReadPrompts(6, 0).empty());
+    EXPECT_THROW(dataset.ReadPrompts(4, 3), core::Error);
+    EXPECT_EQ(dataset.parts()[1].ReadAll().prompts, PartWithPrompts(1, 3).prompts);
+    EXPECT_THROW(dataset.parts()[1].Prompts(2, 2), core::Error);
+  }
+  // A shard of an earlier version has none: then the dataset has none for its scenes.
+  WriteShard(Part(1, 3), folder.path() / ShardName(1));
+  const SceneDataset mixed(folder.path());
+  EXPECT_EQ(mixed.ReadPrompts(0, 3).size(), 3u);
+  EXPECT_TRUE(mixed.ReadPrompts(0, 4).empty());
+  EXPECT_TRUE(mixed.parts()[1].ReadAll().prompts.empty());
+}
+
+TEST(SceneDataset, PromptsAreOneForEachScene) {
+  const core::TemporaryFolder folder;
+  const fs::path path = folder.path() / ShardName(0);
+  SceneShard part = PartWithPrompts(0, 3);
+  part.prompts.pop_back();
+  EXPECT_THROW(WriteShard(part, path), core::Error);
+  EXPECT_FALSE(fs::exists(path));
+}
+
 TEST(SceneDataset, H5pyReadsTheSame) {
   const core::TemporaryFolder folder;
-  WriteShard(Part(0, 5), folder.path() / ShardName(0));
+  WriteShard(PartWithPrompts(0, 5), folder.path() / ShardName(0));
   const std::string script =
       "import h5py, numpy as np, sys\n"
       "f = h5py.File(sys.argv[1])\n"
@@ -151,6 +189,7 @@ TEST(SceneDataset, H5pyReadsTheSame) {
       "assert s.chunks == (5, 4, 16), s.chunks\n"
       "assert [x.decode() for x in f['slots'][:]] == ['bowl', 'cup', 'table']\n"
       "assert f['welded'][:].tolist() == [0, 0, 1]\n"
+      "assert f['prompts'].shape == (5,) and f['prompts'][3].decode() == 'prompt 0 3'\n"
       "assert f.attrs['type'] == 'test' and f.attrs['seed'] == 5 and f.attrs['version'] == 1\n"
       "assert np.allclose(s[:, 1, 0], np.arange(5)) and np.allclose(s[:, 0, 2], 0.7)\n"
       "assert np.all(s[:, :, 12:].sum(-1) == 1) and np.all(s[:, 2:, 15] == 1)\n"

@@ -70,6 +70,8 @@ TEST(ExtendShard, IsTheSameForAnyThreadsAndInterruptions) {
   EXPECT_EQ(whole.SceneCount(), 10);
   EXPECT_EQ(whole.attempts, pieces.attempts);
   EXPECT_EQ(whole.tokens, pieces.tokens);
+  EXPECT_EQ(whole.prompts.size(), 10u);
+  EXPECT_EQ(whole.prompts, pieces.prompts);
   const size_t size = static_cast<size_t>(whole.vocabulary.entries * whole.vocabulary.TokenWidth());
   ASSERT_EQ(whole.tokens.size(), 10 * size);
   for (size_t i = 0; i < 10; ++i) {
@@ -86,6 +88,31 @@ TEST(ExtendShard, IsTheSameForAnyThreadsAndInterruptions) {
     EXPECT_LE(one.penetration, 1e-4);
     EXPECT_LE(one.drift, 1e-3);
     EXPECT_EQ(one.kept + one.dropped, one.sampled);
+  }
+}
+
+// A shard of an earlier version: the missing prompts are those of a new shard, and scenes stay.
+TEST(ExtendShard, AddsMissingPrompts) {
+  const AssetSet asset_set = GenerationDrums();
+  const Generation generation = Of(asset_set, 0.42);
+  core::Progress progress;
+  SceneShard part = Empty(generation);
+  ExtendShard(generation, 6, &part, &progress);
+  const SceneShard whole = part;
+  ASSERT_EQ(whole.prompts.size(), 6u);
+  for (const size_t left : {0, 4}) {
+    part.prompts.resize(left);
+    ExtendShard(generation, 6, &part, &progress);
+    EXPECT_EQ(part.prompts, whole.prompts);
+    EXPECT_EQ(part.tokens, whole.tokens);
+    EXPECT_EQ(part.attempts, whole.attempts);
+  }
+  for (size_t i = 0; i < 6; ++i) {
+    const std::string& prompt = whole.prompts[i];
+    EXPECT_TRUE(prompt.starts_with("A scene with ")) << prompt;
+    EXPECT_TRUE(prompt.find("drum") != std::string::npos ||
+                prompt.find(" objects.") != std::string::npos)
+        << prompt;
   }
 }
 
