@@ -150,12 +150,13 @@ void PromptParser::Read(const PromptItem& item) {
 }
 
 void PromptParser::ReadQuantity(const PromptItem& item) {
-  ++at_;
   quantity_.words += (quantity_.words.empty() ? "" : " ") + item.words;
   if (item.kind == Kind::kNumber && item.number > 0) quantity_.number = item.number;
   if (item.kind == Kind::kVague) quantity_.vague = item;
   if (item.kind == Kind::kNot) not_ = true;
-  if (item.kind == Kind::kThe) quantity_.definite = true;
+  // "a scene that has cups": no determiner.
+  const bool relative = item.words == "that" && (NextIs(Kind::kFiller) || NextIs(Kind::kThere));
+  if (item.kind == Kind::kThe && !relative) quantity_.definite = true;
   if (item.kind == Kind::kOneOf) quantity_.one_of = true;
   if (item.kind == Kind::kOrdinal) quantity_.ordinal = item.number;
   if (item.kind == Kind::kArticle) {
@@ -167,6 +168,7 @@ void PromptParser::ReadQuantity(const PromptItem& item) {
     without_ = item.words.starts_with("without");
     none_words_ = item.words;
   }
+  ++at_;
 }
 
 // Reads what joins mentions, and words that only end a list.
@@ -450,7 +452,9 @@ void PromptParser::ReadUnknown() {
          "\"" + words + "\" before \"" + items_[at_].words + "\" is ignored");
     return;
   }
-  if (!physical && !quantity_.Any() && !none_) {
+  const bool before_place =
+      at_ < items_.size() && (items_[at_].kind == Kind::kPlace || items_[at_].kind == Kind::kTotal);
+  if (before_place || (!physical && !quantity_.Any() && !none_)) {
     parsed_.ignored.push_back(words);
     return;
   }

@@ -193,8 +193,9 @@ const std::unordered_set<std::string>& FillerWords() {
       "everything", "anything",    "something", "nothing",     "empty",      "full",
       "big",        "large",       "small",     "little",      "nice",       "dim",
       "sum",        "dimsum",      "clutter",   "cluttered",   "per",        "than",
-      "both",       "between",     "their",     "his",         "her",        "one",
-      "ones",       "what",        "whose",     "while"};
+      "both",       "stack",       "stacks",    "pile",        "piles",      "their",
+      "his",        "her",         "one",       "ones",        "what",       "whose",
+      "while"};
   return words;
 }
 

@@ -99,7 +99,9 @@ class WordSplitter {
     if (number && after_underscore_) word.clear();  // of "apple_2"
     after_underscore_ = before_suffix;
     if (word.ends_with("n't")) word = "not";
-    if (word.ends_with("'s")) word.resize(word.size() - 2);
+    for (const char* ending : {"'s", "'d", "'ll", "'ve", "'re", "'m"}) {
+      if (word.ends_with(ending)) word.resize(word.rfind('\''));
+    }
     std::erase(word, '\'');
     if (word.empty()) return;
     words_.push_back({word});

@@ -69,6 +69,7 @@ TEST(ReadPrompt, CountsAndNames) {
             "A scene with an apple, two cups, and some other objects.");
   EXPECT_EQ(Canonical("an apple and more"), "A scene with an apple and some other objects.");
   EXPECT_EQ(Canonical("Can you make a scene with two cups?"), "A scene with two cups.");
+  EXPECT_EQ(Canonical("I'd like a crowded scene that has cups"), "A scene with three cups.");
   EXPECT_EQ(Canonical("a kitchen table without cups and plates, with a fork"),
             "A scene with no cups, no plates, and a fork.");
   EXPECT_EQ(Canonical("no cups"), "A scene with no cups and some other objects.");
@@ -98,6 +99,7 @@ TEST(ReadPrompt, ChosenNumbersAreNotes) {
   EXPECT_EQ(Canonical("several apples"), "A scene with four apples.");
   EXPECT_TRUE(HasFinding(Reading("lots of mugs"), "prompt-number-chosen", "six mugs"));
   EXPECT_TRUE(HasFinding(Reading("apples"), "prompt-number-chosen", "three apples"));
+  EXPECT_TRUE(HasFinding(Reading("a mug between two bowls"), "prompt-word-ignored", "between"));
   EXPECT_EQ(Canonical("many objects"), "A scene with 20 objects.");
   EXPECT_TRUE(HasFinding(Reading("a mug and a mug"), "prompt-repeated-name", "mugs"));
 }

@@ -73,6 +73,18 @@ void SceneCommand::GoesOnWhereItStopped() {
   EXPECT_EQ(nlohmann::json::parse(more.text)["scenes"], 4);
   const scene::SceneDataset before{fs::path(Dimsum())}, after{fs::path(copy)};
   EXPECT_EQ(after.Read(0, 3), before.Read(0, 3));
+  EXPECT_EQ(after.ReadPrompts(0, 3), before.ReadPrompts(0, 3));
+  EXPECT_EQ(after.ReadPrompts(0, 4).size(), 4u);
+  // A complete shard of an earlier version has no prompts: it gets the same ones.
+  const fs::path shard = fs::path(copy) / scene::ShardName(0);
+  const std::string bytes = core::ReadFile(shard);
+  scene::SceneShard without = scene::SceneShardFile(shard).ReadAll();
+  without.prompts.clear();
+  scene::WriteShard(without, shard);
+  EXPECT_NE(core::ReadFile(shard), bytes);
+  ASSERT_EQ(RunProgram("scene generate --type dimsum --count 4 --part 2 --quiet -o " + copy).code,
+            0);
+  EXPECT_EQ(core::ReadFile(shard), bytes);
   // Other settings are another dataset.
   for (const char* const flags : {"--seed 2", "--step 0.003", "--hull steamer"}) {
     const Outcome other =
