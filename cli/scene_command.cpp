@@ -75,6 +75,9 @@ void AddGenerate(CLI::App* scene, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_option("--step", request.time_step, "Time step of the physics, s")
       ->default_str("validated default");
+  command->add_flag("--raw", request.raw,
+                    "Keep the grammar's scenes without physics, for the training of models: they "
+                    "take milliseconds, but interpenetrate a little and do not rest");
   command->add_flag("--list", flags->list, "List the types");
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Generate(*flags, *common); }; });

@@ -21,7 +21,7 @@ constexpr int kShapePoints = 256;  // for --by-shape
 
 struct TrainFlags {
   std::filesystem::path dataset, output, assets;
-  bool by_shape = false;
+  bool by_shape = false, text = false;
   std::string size = "tiny", method = "ours";
   scene::SceneTrainingOptions options;
 };
@@ -30,6 +30,7 @@ scene::SceneModelOptions ModelOf(const TrainFlags& flags) {
   scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(flags.size);
   if (flags.method == "continuous") model.continuous = true;
   if (flags.by_shape) model.shape_points = kShapePoints;
+  model.text = flags.text || !flags.options.text_encoder.empty();
   if (flags.method == "midiffusion") return model.AsMiDiffusion();
   if (flags.method == "diffuscene") return model.AsDiffuScene();
   return model;
@@ -128,6 +129,15 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
       ->add_option("--assets", flags->assets,
                    "With --by-shape: the folder of the categories' assets, if not the dataset's")
       ->needs(by_shape);
+  command->add_flag("--text", flags->text,
+                    "Read prompts, drawn from the scenes, by a text encoder trained along");
+  command->add_option("--text-encoder", options.text_encoder,
+                      "Read prompts by this TorchScript module instead, which stays as it is; its "
+                      "word pieces are in FILE.vocab.txt or vocab.txt beside it");
+  command
+      ->add_option("--prompt-dropout", options.prompt_dropout,
+                   "With --text: fraction of scenes that train without a prompt")
+      ->capture_default_str();
   command->add_option("--steps", options.trainer.steps, "Number of updates")->capture_default_str();
   command->add_option("--batch", options.batch, "Scenes per update")->capture_default_str();
   command->add_option("--rate", options.trainer.learning_rate, "Learning rate")
@@ -152,6 +162,8 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
       "Examples:\n  simwright scene sample --type dimsum --steps 100 -o out/sampled\n"
       "  simwright scene sample out/dimsum_model/model.pt --count 20 -o out/sampled \\\n"
       "    --assets out/dimsum/assets\n"
+      "  simwright scene sample --type pantry_shelf --prompt \"five apples next to a bowl\" -o "
+      "out/apples\n"
       "Without --raw, interpenetrations are resolved, objects are lowered onto their support and "
       "settled;\n"
       "objects that fall are dropped.");
@@ -162,6 +174,16 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_option("--assets", request->assets,
                       "Asset folders, matched by name or category; the library provides the rest");
   command->add_option("--add", *added, "SLOT=FOLDER: a new asset for a model trained --by-shape");
+  command->add_option("--prompt", request->prompts,
+                      "The wanted scene in words; several are taken in turn");
+  command->add_option("--prompts", request->prompt_file, "A text file with a prompt per line");
+  command
+      ->add_option("--guidance", request->sampling.guidance,
+                   "Weight of classifier-free guidance: how far to follow the prompt; 0: none")
+      ->capture_default_str();
+  command->add_option(
+      "--text-encoder", request->text_encoder,
+      "The TorchScript text encoder that the model was trained with, if it has one");
   command->add_option("--steps", request->sampling.steps, "Diffusion steps; 0: all")
       ->capture_default_str();
   command->add_option("--eta", request->sampling.eta, "Fraction of the noise kept in each step")

@@ -1,12 +1,23 @@
 #include "nn/transformer.h"
 
 #include <cmath>
+#include <limits>
 
 namespace simwright::nn {
 
 torch::Tensor Attention(const torch::Tensor& q, const torch::Tensor& k, const torch::Tensor& v) {
+  return Attention(q, k, v, {});
+}
+
+torch::Tensor Attention(const torch::Tensor& q, const torch::Tensor& k, const torch::Tensor& v,
+                        const torch::Tensor& key_mask) {
   const double scale = 1.0 / std::sqrt(static_cast<double>(q.size(-1)));
-  const torch::Tensor weights = torch::softmax(torch::matmul(q * scale, k.transpose(-2, -1)), -1);
+  torch::Tensor scores = torch::matmul(q * scale, k.transpose(-2, -1));
+  if (key_mask.defined()) {
+    scores = scores.masked_fill(key_mask.logical_not().unsqueeze(1).unsqueeze(1),
+                                -std::numeric_limits<float>::infinity());
+  }
+  const torch::Tensor weights = torch::softmax(scores, -1);
   const torch::Tensor mixed = torch::matmul(weights, v).transpose(1, 2);
   return mixed.reshape({mixed.size(0), mixed.size(1), mixed.size(2) * mixed.size(3)});
 }

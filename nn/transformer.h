@@ -7,6 +7,10 @@ namespace simwright::nn {
 // Returns softmax(q k^T / sqrt(d)) v for q, k, v (B x heads x N x d): (B x N x heads d). Vaswani et
 // al. 2017.
 torch::Tensor Attention(const torch::Tensor& q, const torch::Tensor& k, const torch::Tensor& v);
+// Attends only to the keys for which `key_mask` (B x N, bool) is true; at least one per row. An
+// undefined mask admits all.
+torch::Tensor Attention(const torch::Tensor& q, const torch::Tensor& k, const torch::Tensor& v,
+                        const torch::Tensor& key_mask);
 
 // Reshapes (B x N x heads d) -> (B x heads x N x d).
 torch::Tensor SplitHeads(const torch::Tensor& x, std::int64_t heads);

@@ -27,6 +27,10 @@ std::uint64_t StreamOf(const ShardOrigin& origin, size_t attempt) {
 Made Attempt(const Generation& generation, const ShardOrigin& origin, size_t index) {
   core::Rng rng = core::StreamRng(origin.seed, StreamOf(origin, index));
   const SceneSample sample = SampleGrammar(generation.grammar, rng);
+  if (generation.raw) {
+    const auto count = static_cast<int>(sample.objects.size());
+    return {{count, count, 0, false, true, 0.0, 0.0, 0.0}, sample.objects};
+  }
   FeasibleScene scene = MakeFeasible(sample.objects, *generation.asset_set, generation.feasibility);
   Made made;
   made.attempt = AttemptOf(scene, static_cast<int>(sample.objects.size()));
@@ -121,6 +125,10 @@ std::string SettingsText(const Generation& generation) {
   core::OrderedJson json;
   json["revision"] = kRevision;
   json["grammar"] = generation.grammar.name();
+  if (generation.raw) {
+    json["raw"] = true;
+    return core::JsonLine(json);
+  }
   json["projection"] = {{"influence", feasible.projection.contact_margin},
                         {"tolerance", feasible.projection.tolerance},
                         {"rounds", feasible.projection.rounds}};

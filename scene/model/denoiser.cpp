@@ -27,11 +27,23 @@ Denoised Denoiser::PredictParallel(const NoisyScenes& scenes) {
     const auto part = [&](const torch::Tensor& all) {
       return all.narrow(0, share.first, share.count);
     };
-    const Denoised one = Predict({part(scenes.poses), part(scenes.classes), part(scenes.time)});
+    const Denoised one = Predict({part(scenes.poses), part(scenes.classes), part(scenes.time),
+                                  scenes.text.Part(share.first, share.count)});
     noise[static_cast<size_t>(i)] = one.pose_noise;
     classes[static_cast<size_t>(i)] = one.classes;
   });
   return {torch::cat(noise), torch::cat(classes)};
+}
+
+EncodedText Denoiser::EncodeText(const TextInput& text) {
+  if (!text_) {
+    throw core::Error("the model reads no prompts", "", "train one with --text");
+  }
+  return text_->forward(text);
+}
+
+void Denoiser::RegisterText(const SceneModelOptions& options) {
+  if (options.text) text_ = register_module("text", TextEncoder(options));
 }
 
 void Denoiser::SetShapes(const AssetShapes& shapes) {

@@ -5,6 +5,7 @@
 #include "nn/torch.h"
 #include "scene/model/class_shapes.h"
 #include "scene/model/model_options.h"
+#include "scene/model/text_encoder.h"
 
 namespace simwright::scene {
 
@@ -13,6 +14,7 @@ struct NoisyScenes {
   torch::Tensor poses;    // (B x N x 12), each feature in about [-1, 1]
   torch::Tensor classes;  // mixed: (B x N) int64, 0 .. K, K the mask; continuous: (B x N x K)
   torch::Tensor time;     // (B) int64, 0 .. steps - 1
+  EncodedText text = {};  // of a model that reads prompts
 };
 
 struct Denoised {
@@ -28,6 +30,10 @@ class Denoiser : public torch::nn::Module {
   // Predicts the noise with the batch split over the CPU's threads.
   Denoised PredictParallel(const NoisyScenes& scenes);
 
+  // Encodes prompts for NoisyScenes::text. Thread-safe. Throws core::Error if the model reads no
+  // prompts, or as TextEncoder does.
+  EncodedText EncodeText(const TextInput& text);
+
   // Sets the class shapes. Throws core::Error if the model uses a table of classes, or for shapes
   // of another size.
   void SetShapes(const AssetShapes& shapes);
@@ -39,8 +45,11 @@ class Denoiser : public torch::nn::Module {
   // holder.
   ClassShapes RegisterShapes(const SceneModelOptions& options, int classes, std::int64_t entry,
                              std::int64_t exit);
+  // Registers the text encoder if `options` ask for one.
+  void RegisterText(const SceneModelOptions& options);
 
  private:
+  TextEncoder text_{nullptr};
   ClassShapes shapes_{nullptr};
 };
 

@@ -6,6 +6,15 @@
 #include "core/error.h"
 
 namespace simwright::scene {
+namespace {
+
+// Returns the number of parameters of the blocks of kFlux divided by width^2: 18 per stream of a
+// double-stream block, 15 per single-stream block.
+int BlockParameters(const SceneModelOptions& options) {
+  return 18 * (options.text ? 2 : 1) * options.double_blocks + 15 * options.single_blocks;
+}
+
+}  // namespace
 
 SceneModelOptions SceneModelOptions::OfSize(const std::string& size) {
   SceneModelOptions options;
@@ -30,8 +39,9 @@ SceneModelOptions SceneModelOptions::OfSize(const std::string& size) {
 SceneModelOptions SceneModelOptions::AsMiDiffusion() const {
   SceneModelOptions options = *this;
   options.kind = DenoiserKind::kTransformer;
-  // Our blocks have 18 or 15 width^2 parameters, one of theirs 16.
-  options.single_blocks = (18 * double_blocks + 15 * single_blocks + 8) / 16;
+  // One of their blocks has 16 width^2 parameters, with cross-attention 20.
+  const int theirs = text ? 20 : 16;
+  options.single_blocks = (BlockParameters(*this) + theirs / 2) / theirs;
   options.double_blocks = 0;
   options.heads = 4;
   options.blends_clean_poses = false;
@@ -47,10 +57,12 @@ SceneModelOptions SceneModelOptions::AsDiffuScene() const {
   options.heads = 4;
   options.blends_clean_poses = false;
   options.time_power = 1.0;
-  // It has `kUnetFactor` width^2 parameters; ours are as above.
-  constexpr double kUnetFactor = 132.0;
-  const double ours = (18.0 * double_blocks + 15.0 * single_blocks) * width * width;
-  options.width = std::max(8, 4 * static_cast<int>(std::lround(std::sqrt(ours / kUnetFactor) / 4)));
+  // It has 132 width^2 parameters, 4 more with each of its 9 layers of cross-attention. The own
+  // text encoder has the width of the model, too, 12 width^2 a layer.
+  const double encoder = text ? 12.0 * text_layers : 0.0;
+  const double theirs = (text ? 132.0 + 4.0 * 9.0 : 132.0) + encoder;
+  const double ours = (BlockParameters(*this) + encoder) * width * width;
+  options.width = std::max(8, 4 * static_cast<int>(std::lround(std::sqrt(ours / theirs) / 4)));
   return options;
 }
 
@@ -76,6 +88,19 @@ bool SceneModelOptions::IsValid(std::string* error) const {
     return fails("continuous classes cannot be embedded by shape");
   if (shape_points > 0 && kind == DenoiserKind::kUnet) {
     return fails("a U-Net cannot embed classes by shape");
+  }
+  if (!text && (text_pieces != 0 || text_features != 0)) {
+    return fails("text_pieces and text_features need text");
+  }
+  if (text_pieces < 0 || text_pieces > 1 << 20) return fails("text_pieces must be 0 to 1048576");
+  if (text_features < 0 || text_features > 65536) return fails("text_features must be 0 to 65536");
+  if (text_pieces > 0 && text_features > 0) {
+    return fails("text is read as pieces or as features, not as both");
+  }
+  if (text_layers < 0 || text_layers > 64) return fails("text_layers must be 0 to 64");
+  if (text_length < 2 || text_length > 4096) return fails("text_length must be 2 to 4096");
+  if (text && kind == DenoiserKind::kFlux && double_blocks < 1) {
+    return fails("text enters by the double-stream blocks: double_blocks must be at least 1");
   }
   if (diffusion_steps < 2 || diffusion_steps > 100000) {
     return fails("diffusion_steps must be 2 to 100000");

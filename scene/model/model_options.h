@@ -36,6 +36,15 @@ struct SceneModelOptions {
   // their index, so that an asset can be added without training.
   int shape_points = 0;
 
+  // True: the model reads prompts. kFlux: by the text streams of its double-stream blocks, joined
+  // with the scene's tokens in the single-stream ones; the baselines: by cross-attention.
+  bool text = false;
+  // With `text`, one of these is above 0 once the vocabulary is known; training sets it: the number
+  // of word pieces of the model's own encoder, or the width of an external encoder's features.
+  int text_pieces = 0, text_features = 0;
+  int text_layers = 2;    // transformer layers of the own encoder
+  int text_length = 110;  // most pieces of a prompt, as published; the rest is cut off
+
   // Returns the options of a size: "tiny" (two cores), "base" or "full" (the paper's 88 M). Throws
   // core::Error for another one.
   static SceneModelOptions OfSize(const std::string& size);

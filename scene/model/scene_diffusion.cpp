@@ -32,10 +32,24 @@ DenoisingBatch DenoisingBatch::Part(std::int64_t first, std::int64_t count) cons
     return all.defined() ? all.narrow(0, first, count) : all;
   };
   return {{part(clean.poses), part(clean.classes)},
-          {part(noisy.poses), part(noisy.classes), part(noisy.time)},
+          {part(noisy.poses), part(noisy.classes), part(noisy.time), {}},
           part(pose_noise),
           part(class_noise),
-          part(class_weight)};
+          part(class_weight),
+          text.Part(first, count)};
+}
+
+DenoisingBatch DenoisingBatch::SortedByPromptLength() const {
+  const torch::Tensor order = text.mask.sum(1).argsort();
+  const auto sorted = [&](const torch::Tensor& all) {
+    return all.defined() ? all.index_select(0, order) : all;
+  };
+  return {{sorted(clean.poses), sorted(clean.classes)},
+          {sorted(noisy.poses), sorted(noisy.classes), sorted(noisy.time), {}},
+          sorted(pose_noise),
+          sorted(class_noise),
+          sorted(class_weight),
+          {sorted(text.pieces), sorted(text.features), sorted(text.mask)}};
 }
 
 SceneDiffusion::SceneDiffusion(const SceneModelOptions& options, int classes)
@@ -68,7 +82,9 @@ DenoisingBatch SceneDiffusion::AddNoise(const CleanScenes& scenes,
 }
 
 SceneLoss SceneDiffusion::Loss(Denoiser* denoiser, const DenoisingBatch& scenes) const {
-  const Denoised guess = denoiser->Predict(scenes.noisy);
+  NoisyScenes noisy = scenes.noisy;
+  if (scenes.text.IsDefined()) noisy.text = denoiser->EncodeText(scenes.text);
+  const Denoised guess = denoiser->Predict(noisy);
   if (!continuous_) return MixedLoss(guess, scenes);
   SceneLoss loss;
   SetPoseLoss(guess.pose_noise - scenes.pose_noise, &loss);
@@ -119,10 +135,11 @@ NoisyScenes SceneDiffusion::Noise(int count, int entries, const at::Generator& g
 }
 
 void SceneDiffusion::Step(Denoiser* denoiser, int t, int previous, double eta,
-                          const at::Generator& generator, NoisyScenes* scenes) const {
+                          const Guidance& guidance, const at::Generator& generator,
+                          NoisyScenes* scenes) const {
   scenes->time =
       torch::full({scenes->poses.size(0)}, t, scenes->classes.options().dtype(torch::kLong));
-  const Denoised guess = denoiser->PredictParallel(*scenes);
+  const Denoised guess = PredictGuided(denoiser, *scenes, guidance);
   const auto advance = [&](const torch::Tensor& noisy, const torch::Tensor& noise) {
     const torch::Tensor clean = poses_.CleanFrom(noisy, noise, scenes->time).clamp(-1.0, 1.0);
     return poses_.StochasticStep(noisy, clean, t, previous, eta, NormalLike(noisy, generator));

@@ -5,6 +5,7 @@
 #include "nn/diffusion_schedule.h"
 #include "scene/model/category_diffusion.h"
 #include "scene/model/denoiser.h"
+#include "scene/model/guidance.h"
 
 namespace simwright::scene {
 
@@ -29,9 +30,13 @@ struct DenoisingBatch {
   torch::Tensor pose_noise;    // (B x N x 12)
   torch::Tensor class_noise;   // (B x N x K), of a continuous model
   torch::Tensor class_weight;  // (B), of the classes' loss, of a mixed model
+  TextInput text;              // of a model that reads prompts
 
   // Returns `count` scenes from `first` on: views, not copies.
   DenoisingBatch Part(std::int64_t first, std::int64_t count) const;
+  // Returns the scenes by the length of their prompts, the shortest first, so that parts of the
+  // batch have little padding.
+  DenoisingBatch SortedByPromptLength() const;
 };
 
 // Mixed diffusion of scenes (Pfaff et al., after Hu et al. 2024): poses by DDPM (linear betas 1e-4
@@ -55,8 +60,8 @@ class SceneDiffusion {
   NoisyScenes Noise(int count, int entries, const at::Generator& generator) const;
   // Performs one denoising step from t to `previous` < t (-1: clean); poses receive `eta` times the
   // noise of the posterior.
-  void Step(Denoiser* denoiser, int t, int previous, double eta, const at::Generator& generator,
-            NoisyScenes* scenes) const;
+  void Step(Denoiser* denoiser, int t, int previous, double eta, const Guidance& guidance,
+            const at::Generator& generator, NoisyScenes* scenes) const;
   // Returns the clean scenes at the end of sampling. A continuous class is the argmax.
   CleanScenes Clean(const NoisyScenes& scenes) const;
 

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "nn/compute.h"
+#include "scene/model/prompt_encoder.h"
 #include "scene/model/scene_diffusion.h"
 #include "scene/model/token_tensors.h"
 #include "scene/model/weights_file.h"
@@ -15,7 +16,46 @@ struct SceneModel::Network {
   SceneModelMetadata metadata;
   std::shared_ptr<Denoiser> denoiser;
   torch::Device device;
+  std::unique_ptr<ExternalTextEncoder> text_encoder;  // null: the denoiser's own
+
+  // Returns prompts in the form that the denoiser attends to.
+  EncodedText Encode(const std::vector<std::string>& prompts) const {
+    const WordPieces pieces(metadata.text_pieces);
+    return denoiser->EncodeText(
+        TextInputOf(prompts, pieces, metadata.options.text_length, text_encoder.get()).To(device));
+  }
+  // Returns the prompts of scenes first .. first + count - 1.
+  EncodedText EncodePrompts(const SampleOptions& sampling, int first, int count) const {
+    std::vector<std::string> prompts(static_cast<size_t>(count));
+    for (size_t i = 0; i < prompts.size() && !sampling.prompts.empty(); ++i) {
+      prompts[i] = sampling.prompts[(static_cast<size_t>(first) + i) % sampling.prompts.size()];
+    }
+    return Encode(prompts);
+  }
 };
+
+namespace {
+
+// Loads the external text encoder that a model was trained with; null if it needs none.
+std::unique_ptr<ExternalTextEncoder> EncoderOf(const SceneModelMetadata& metadata,
+                                               const std::filesystem::path& file) {
+  if (metadata.text_encoder.empty()) {
+    if (file.empty()) return nullptr;
+    throw core::Error("the model reads prompts by itself or not at all", file.string(),
+                      "leave the text encoder out");
+  }
+  if (file.empty()) {
+    throw core::Error("the model was trained with an external text encoder", "",
+                      "give it: --text-encoder FILE");
+  }
+  auto encoder = std::make_unique<ExternalTextEncoder>(file);
+  if (encoder->hash() != metadata.text_encoder) {
+    throw core::Error("the model was trained with another text encoder", file.string());
+  }
+  return encoder;
+}
+
+}  // namespace
 
 bool SampleOptions::IsValid(std::string* error) const {
   const auto fails = [&](const char* what) {
@@ -25,6 +65,7 @@ bool SampleOptions::IsValid(std::string* error) const {
   if (steps < 0) return fails("steps must be at least 1, or 0 for all");
   if (!(eta >= 0.0 && eta <= 1.0)) return fails("eta must be 0 to 1");
   if (batch < 1) return fails("batch must be at least 1");
+  if (!(guidance >= 0.0 && guidance <= 100.0)) return fails("guidance must be 0 to 100");
   return true;
 }
 
@@ -33,12 +74,14 @@ SceneModel::~SceneModel() = default;
 SceneModel::SceneModel(SceneModel&&) noexcept = default;
 SceneModel& SceneModel::operator=(SceneModel&&) noexcept = default;
 
-SceneModel SceneModel::Load(const std::filesystem::path& weights) {
+SceneModel SceneModel::Load(const std::filesystem::path& weights,
+                            const std::filesystem::path& text_encoder) {
   ReadModel model = ReadWeights(weights);
   const torch::Device device = nn::BestDevice();
   model.denoiser->to(device);
+  std::unique_ptr<ExternalTextEncoder> encoder = EncoderOf(model.metadata, text_encoder);
   return SceneModel(std::make_unique<Network>(
-      Network{std::move(model.metadata), std::move(model.denoiser), device}));
+      Network{std::move(model.metadata), std::move(model.denoiser), device, std::move(encoder)}));
 }
 
 const SceneModelMetadata& SceneModel::metadata() const {
@@ -80,9 +123,16 @@ std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("sampling: " + error);
   if (count < 0) throw core::Error("cannot sample this number of scenes", std::to_string(count));
+  const SceneModelMetadata& metadata = network_->metadata;
+  if (!options.prompts.empty() && !metadata.options.text) {
+    throw core::Error("the model reads no prompts", "", "train one with --text");
+  }
   nn::PrepareForWork();
   const torch::NoGradGuard no_gradient;
-  const SceneModelMetadata& metadata = network_->metadata;
+  Guidance guidance;
+  if (!options.prompts.empty() && options.guidance > 0.0) {
+    guidance = {options.guidance, network_->Encode({""})};
+  }
   const SceneDiffusion diffusion(metadata.options, metadata.vocabulary.ClassCount());
   std::vector<int> times =
       diffusion.Times(options.steps == 0 ? metadata.options.diffusion_steps : options.steps);
@@ -96,10 +146,11 @@ std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
     NoisyScenes scenes = diffusion.Noise(some, metadata.vocabulary.entries, generator);
     scenes.poses = scenes.poses.to(network_->device);
     scenes.classes = scenes.classes.to(network_->device);
+    if (metadata.options.text) scenes.text = network_->EncodePrompts(options, first, some);
     for (size_t i = 0; i + 1 < times.size(); ++i) {
       core::CheckCancelled();
-      diffusion.Step(network_->denoiser.get(), times[i], times[i + 1], options.eta, generator,
-                     &scenes);
+      diffusion.Step(network_->denoiser.get(), times[i], times[i + 1], options.eta, guidance,
+                     generator, &scenes);
     }
     const std::vector<float> part =
         TokensOf(diffusion.Clean(scenes), metadata.vocabulary, metadata.range);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,6 +22,11 @@ struct SampleOptions {
   double eta = 1.0;
   int batch = 64;  // scenes per batch
   std::uint64_t seed = 1;
+  // The prompts of a model that reads them: scene i has prompts[i % prompts.size()], as
+  // Prompt::Text() writes them; none: all scenes are unprompted.
+  std::vector<std::string> prompts;
+  // The weight w of classifier-free guidance, (1 + w) prompted - w unprompted; 0: none.
+  double guidance = 0.0;
 
   bool IsValid(std::string* error) const;
 };
@@ -33,14 +39,18 @@ struct SceneModelMetadata {
   int training_scenes = 0;  // scenes 0 .. training_scenes - 1 of the dataset; others are held out
   std::uint64_t data_seed = 0;
   std::int64_t parameters = 0;
-  int steps = 0;  // training steps
+  int steps = 0;                              // training steps
+  std::vector<std::string> text_pieces = {};  // word pieces of a model that reads prompts
+  std::string text_encoder = "";              // hash of the external text encoder; empty: its own
 };
 
 // A trained model of scenes. Thread-safe unless AddAsset is called.
 class SceneModel {
  public:
-  // Loads a model. Throws core::Error if the file is missing or not a scene model.
-  static SceneModel Load(const std::filesystem::path& weights);
+  // Loads a model. `text_encoder`: the external encoder that it was trained with, if any. Throws
+  // core::Error if a file is missing or not a scene model, or the encoder is another one.
+  static SceneModel Load(const std::filesystem::path& weights,
+                         const std::filesystem::path& text_encoder = {});
   ~SceneModel();
   SceneModel(SceneModel&&) noexcept;
   SceneModel& operator=(SceneModel&&) noexcept;
@@ -54,7 +64,8 @@ class SceneModel {
 
   // Samples `count` scenes. Returns their tokens (count x entries x TokenWidth), with one-hot
   // classes and matrices as predicted (DecodeScene projects them to rotations). Advances `progress`
-  // by one per scene. Throws core::Error for invalid options.
+  // by one per scene. Throws core::Error for invalid options, and for prompts if the model reads
+  // none.
   std::vector<float> Sample(int count, const SampleOptions& options,
                             core::Progress* progress) const;
 

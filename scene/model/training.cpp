@@ -11,6 +11,7 @@
 #include "nn/trainer.h"
 #include "scene/dataset/scene_stream.h"
 #include "scene/model/token_tensors.h"
+#include "scene/model/training_prompts.h"
 #include "scene/model/weights_file.h"
 
 namespace simwright::scene {
@@ -70,11 +71,12 @@ class Training {
         diffusion_(model, dataset.vocabulary().ClassCount()) {
     metadata_.training_scenes = training_;
     metadata_.data_seed = dataset.parts().front().origin().seed;
+    if (model.text) ReadPrompts();
     torch::manual_seed(options.seed);  // for the initial weights
-    denoiser_ = MakeDenoiser(model, dataset.vocabulary().ClassCount());
+    denoiser_ = MakeDenoiser(metadata_.options, dataset.vocabulary().ClassCount());
     metadata_.parameters = ParameterCount(*denoiser_);
     denoiser_->to(device_);
-    average_ = MakeDenoiser(model, dataset.vocabulary().ClassCount());
+    average_ = MakeDenoiser(metadata_.options, dataset.vocabulary().ClassCount());
     average_->to(device_);
     if (model.shape_points > 0) {
       denoiser_->SetShapes(options.shapes);
@@ -96,7 +98,10 @@ class Training {
     progress->Stage("training", options_.trainer.steps - first);
     for (int step = first; step < options_.trainer.steps; ++step) {
       stream.Next(options_.batch, tokens.data());
-      Step(step, OnDevice(TensorsOf(tokens, dataset_.vocabulary(), metadata_.range)), generator);
+      TextInput text;
+      if (prompts_) text = prompts_->Draw(tokens, metadata_.options.text_length, rng);
+      Step(step, OnDevice(TensorsOf(tokens, dataset_.vocabulary(), metadata_.range)),
+           text.To(device_), generator);
       const bool last = step + 1 == options_.trainer.steps;
       if ((step + 1) % options_.report_every == 0 || last) Record(step + 1);
       if (trainer_->SaveDue(step)) Save(step + 1);
@@ -119,21 +124,38 @@ class Training {
     return {scenes.poses.to(device_), scenes.classes.to(device_)};
   }
 
-  void Step(int step, const CleanScenes& scenes, const at::Generator& generator) {
-    const DenoisingBatch batch = diffusion_.AddNoise(scenes, generator);
+  void ReadPrompts() {
+    prompts_ = std::make_unique<TrainingPrompts>(dataset_, training_, options_);
+    prompts_->Complete(&metadata_.options);
+    metadata_.text_pieces = prompts_->pieces().pieces();
+    if (prompts_->encoder() != nullptr) metadata_.text_encoder = prompts_->encoder()->hash();
+  }
+
+  void Step(int step, const CleanScenes& scenes, const TextInput& text,
+            const at::Generator& generator) {
+    DenoisingBatch batch = diffusion_.AddNoise(scenes, generator);
+    batch.text = text;
     const std::int64_t count = scenes.poses.size(0);
     const int share_count = nn::ShareCount(device_, count);
-    std::vector<SceneLoss> losses(static_cast<size_t>(share_count));
+    // The padding of prompts takes as long as prompts. On a CPU each share is therefore a part of
+    // short prompts and one of long ones.
+    const bool sorts = text.IsDefined() && !device_.is_cuda() && count >= 2 * share_count;
+    if (sorts) batch = batch.SortedByPromptLength();
+    const int parts = sorts ? 2 * share_count : share_count;
+    std::vector<SceneLoss> losses(static_cast<size_t>(parts));
     std::vector<double> shares(losses.size());
-    const double total = trainer_->Step(step, share_count, [&](int i) {
-      const size_t at = static_cast<size_t>(i);
-      const nn::Share share = nn::ShareOf(count, share_count, i);
+    const auto loss_of = [&](int part) {
+      const size_t at = static_cast<size_t>(part);
+      const nn::Share share = nn::ShareOf(count, parts, part);
       shares[at] = static_cast<double>(share.count) / static_cast<double>(count);
       // On a GPU only; half-precision products speed up an update on a CPU with AMX by a tenth
       // only.
       const nn::MixedPrecision half(device_, options_.bfloat16_on_gpu && device_.is_cuda());
       losses[at] = diffusion_.Loss(denoiser_.get(), batch.Part(share.first, share.count));
       return shares[at] * losses[at].total;
+    };
+    const double total = trainer_->Step(step, share_count, [&](int i) {
+      return sorts ? loss_of(i) + loss_of(parts - 1 - i) : loss_of(i);
     });
     if (std::isfinite(total)) {
       means_.Add(losses, shares);
@@ -153,13 +175,15 @@ class Training {
     if (held_out_ == 0) return NAN;
     const torch::NoGradGuard no_gradient;
     trainer_->CopyAverageTo(average_.get());
-    const CleanScenes scenes =
-        OnDevice(TensorsOf(dataset_.Read(training_, std::min(held_out_, kHeldOutBatch)),
-                           dataset_.vocabulary(), metadata_.range));
+    const std::vector<float> tokens = dataset_.Read(training_, std::min(held_out_, kHeldOutBatch));
     core::Rng rng = core::StreamRng(options_.seed, 0);
     const at::Generator generator = at::detail::createCPUGenerator(rng());
-    return diffusion_.Loss(average_.get(), diffusion_.AddNoise(scenes, generator))
-        .total.item<double>();
+    DenoisingBatch batch = diffusion_.AddNoise(
+        OnDevice(TensorsOf(tokens, dataset_.vocabulary(), metadata_.range)), generator);
+    if (prompts_) {
+      batch.text = prompts_->Draw(tokens, metadata_.options.text_length, rng).To(device_);
+    }
+    return diffusion_.Loss(average_.get(), batch).total.item<double>();
   }
 
   void Record(int step) {
@@ -184,6 +208,7 @@ class Training {
   int held_out_, training_;
   SceneModelMetadata metadata_;
   SceneDiffusion diffusion_;
+  std::unique_ptr<TrainingPrompts> prompts_;  // null: the model reads none
   std::shared_ptr<Denoiser> denoiser_, average_;
   std::unique_ptr<nn::Trainer> trainer_;
   LossMeans means_;
@@ -211,6 +236,10 @@ bool SceneTrainingOptions::IsValid(std::string* error) const {
   if (batch < 1) return fails("batch must be at least 1");
   if (!(held_out >= 0.0 && held_out < 1.0)) return fails("held_out must be a share below 1");
   if (held_out_most < 0) return fails("held_out_most must be at least 0");
+  if (!(prompt_dropout >= 0.0 && prompt_dropout <= 1.0)) {
+    return fails("prompt_dropout must be 0 to 1");
+  }
+  if (text_pieces < 64) return fails("text_pieces must be at least 64");
   if (buffer < 1) return fails("buffer must be at least 1");
   if (report_every < 1) return fails("report_every must be at least 1");
   return true;

@@ -8,6 +8,7 @@
 #include "core/progress.h"
 #include "nn/trainer_options.h"
 #include "scene/dataset/scene_dataset.h"
+#include "scene/grammar/category_size.h"
 #include "scene/model/asset_shapes.h"
 #include "scene/model/loss_records.h"
 #include "scene/model/model_options.h"
@@ -29,6 +30,13 @@ struct SceneTrainingOptions {
   bool bfloat16_on_gpu = true;  // for matrix products; as in the paper
   std::uint64_t seed = 1;
   AssetShapes shapes;  // of the dataset's categories, for a model with classes by shape
+  // Of a model that reads prompts: the share of scenes that train without one, the most word pieces
+  // of its own encoder, the external encoder's file if it has one, and the sizes of the categories,
+  // by which relations are recognised.
+  double prompt_dropout = 0.1;
+  int text_pieces = 512;
+  std::filesystem::path text_encoder;
+  CategorySizes sizes = DefaultCategorySizes();
   // Constructs the defaults. The paper's learning rate is 2e-4 for batches of 2048 over 200k steps;
   // with the few steps that two cores allow, a higher one learns more.
   SceneTrainingOptions();

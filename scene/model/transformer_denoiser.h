@@ -1,20 +1,23 @@
 #pragma once
 
 #include "nn/transformer.h"
+#include "scene/model/cross_attention.h"
 #include "scene/model/token_heads.h"
 
 namespace simwright::scene {
 
-// Attention, then an MLP on each token; time scales and shifts the norm before each.
+// Attention, then an MLP on each token; time scales and shifts the norm before each. With `text`,
+// cross-attention to the prompt between them.
 class AdaptiveBlockImpl : public torch::nn::Module {
  public:
-  AdaptiveBlockImpl(std::int64_t width, std::int64_t heads);
-  torch::Tensor forward(torch::Tensor x, const torch::Tensor& vector);
+  AdaptiveBlockImpl(std::int64_t width, std::int64_t heads, bool text);
+  torch::Tensor forward(torch::Tensor x, const torch::Tensor& vector, const EncodedText& text);
 
  private:
   std::int64_t heads_;
   nn::Modulation modulation_{nullptr};
   torch::nn::Linear qkv_{nullptr}, out_{nullptr}, rise_{nullptr}, fall_{nullptr};
+  CrossAttention cross_{nullptr};
 };
 TORCH_MODULE(AdaptiveBlock);
 

@@ -74,6 +74,12 @@ UnetDenoiser::UnetDenoiser(const SceneModelOptions& options, int classes) {
   register_module("down", down_);
   register_module("middle", middle_);
   register_module("up", up_);
+  if (options.text) {
+    for (int i = 0; i < 2 * kLevels + 1; ++i)
+      cross_->push_back(CrossAttention(width, width, heads));
+    register_module("cross", cross_);
+  }
+  RegisterText(options);
   exit_ = register_module("exit", TokenOutputHead(options, width, classes));
 }
 
@@ -83,8 +89,12 @@ Denoised UnetDenoiser::Predict(const NoisyScenes& scenes) {
   const auto residual = [&](torch::nn::ModuleList& list, size_t i, const torch::Tensor& in) {
     return list[i]->as<TokenResidualImpl>()->forward(in, vector);
   };
+  size_t attended = 0;
   const auto attend = [&](torch::nn::ModuleList& list, size_t i) {
     x = list[i]->as<TokenAttentionImpl>()->forward(x);
+    if (!scenes.text.IsDefined()) return;
+    CrossAttentionImpl* const cross = cross_[attended++]->as<CrossAttentionImpl>();
+    x = cross->forward(x.transpose(1, 2), scenes.text).transpose(1, 2);
   };
   std::vector<torch::Tensor> passed;
   for (size_t level = 0; level < kLevels; ++level) {

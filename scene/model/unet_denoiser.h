@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/model/cross_attention.h"
 #include "scene/model/token_heads.h"
 
 namespace simwright::scene {
@@ -35,8 +36,9 @@ class TokenAttentionImpl : public torch::nn::Module {
 TORCH_MODULE(TokenAttention);
 
 // The denoiser of DiffuScene (Tang et al. 2024): a U-Net along the scene's objects, four levels of
-// one width (multipliers 1/1/1/1). Its convolutions are pointwise and all its levels have the
-// length of the scene: objects have no neighbours and interact in the attention only.
+// one width (multipliers 1/1/1/1); each attention is followed by one to the prompt. Its
+// convolutions are pointwise and all its levels have the length of the scene: objects have no
+// neighbours and interact in the attention only.
 class UnetDenoiser : public Denoiser {
  public:
   UnetDenoiser(const SceneModelOptions& options, int classes);
@@ -45,7 +47,7 @@ class UnetDenoiser : public Denoiser {
  private:
   TokenInputHead entry_{nullptr};
   TimeEmbedding time_{nullptr};
-  torch::nn::ModuleList down_, middle_, up_;
+  torch::nn::ModuleList down_, middle_, up_, cross_;
   TokenOutputHead exit_{nullptr};
 };
 

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "nn/checkpoint.h"
+#include "scene/model/word_pieces.h"
 
 namespace simwright::scene {
 namespace {
@@ -22,6 +23,13 @@ SceneModelOptions OptionsOf(const core::JsonField& field) {
   options.blends_clean_poses = field.FlagOr("blends_clean_poses", false);
   options.time_power = field.NumberOr("time_power", 1.0);
   options.shape_points = field.IntOr("shape_points", 0);
+  options.text = field.FlagOr("text", false);
+  if (options.text) {
+    options.text_pieces = field["text_pieces"].Int();
+    options.text_features = field["text_features"].Int();
+    options.text_layers = field["text_layers"].Int();
+    options.text_length = field["text_length"].Int();
+  }
   return options;
 }
 
@@ -38,6 +46,14 @@ SceneModelMetadata MetadataOf(const core::JsonField& field) {
   metadata.training_scenes = field["training_scenes"].Int();
   metadata.data_seed = field["data_seed"].Unsigned();
   metadata.steps = field["steps"].Int();
+  if (metadata.options.text) {
+    metadata.text_pieces = field["pieces"].Texts();
+    metadata.text_encoder = field["text_encoder"].Text();
+    const WordPieces pieces(metadata.text_pieces);  // validates them
+    if (metadata.options.text_pieces > 0 && metadata.options.text_pieces != pieces.size()) {
+      throw core::Error("the number of word pieces differs from the model's");
+    }
+  }
   return metadata;
 }
 
@@ -62,6 +78,15 @@ void WriteWeights(const Denoiser& denoiser, const SceneModelMetadata& metadata,
   json["blends_clean_poses"] = metadata.options.blends_clean_poses;
   json["time_power"] = metadata.options.time_power;
   json["shape_points"] = metadata.options.shape_points;
+  json["text"] = metadata.options.text;
+  if (metadata.options.text) {
+    json["text_pieces"] = metadata.options.text_pieces;
+    json["text_features"] = metadata.options.text_features;
+    json["text_layers"] = metadata.options.text_layers;
+    json["text_length"] = metadata.options.text_length;
+    json["pieces"] = metadata.text_pieces;
+    json["text_encoder"] = metadata.text_encoder;
+  }
   json["training_scenes"] = metadata.training_scenes;
   json["data_seed"] = metadata.data_seed;
   json["steps"] = metadata.steps;

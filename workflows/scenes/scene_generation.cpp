@@ -121,6 +121,7 @@ SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Prog
   scene::AssetSet asset_set = scene::ReadAssetSet(folders);
   for (const std::string& category : request.hulls) asset_set.UseConvexHullCollision(category);
   scene::Generation generation{type.make(asset_set.Sizes()), &asset_set, {}};
+  generation.raw = request.raw;
   if (request.time_step > 0.0) generation.feasibility.settling.time_step = request.time_step;
   scene::ShardOrigin origin;
   origin.seed = request.seed;

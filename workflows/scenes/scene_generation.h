@@ -23,6 +23,7 @@ struct SceneGenerationRequest {
   std::vector<std::string> hulls;             // categories whose assets collide as convex hulls
   int part = 64;                              // scenes per shard, the unit of work of one worker
   double time_step = 0.0;  // the physics', s; 0: the default of scene::FeasibilityOptions
+  bool raw = false;        // keeps the grammar's scenes, without physics (scene::Generation::raw)
 };
 
 // The statistics of a dataset and its generation.

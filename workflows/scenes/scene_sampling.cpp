@@ -36,6 +36,12 @@ struct Sampled {
   std::vector<scene::SceneObject> objects;
 };
 
+std::vector<std::vector<scene::SceneObject>> ObjectsOf(const std::vector<Sampled>& scenes) {
+  std::vector<std::vector<scene::SceneObject>> objects;
+  for (const Sampled& one : scenes) objects.push_back(one.objects);
+  return objects;
+}
+
 Sampled AsSampled(std::vector<scene::SceneObject> objects) {
   Sampled sampled;
   const int count = static_cast<int>(objects.size());
@@ -72,12 +78,15 @@ std::vector<Sampled> FinishScenes(const std::vector<float>& tokens,
 }
 
 scene::SceneShard PartOf(const std::vector<Sampled>& scenes, const scene::Vocabulary& vocabulary,
+                         const std::vector<std::string>& prompts,
                          const scene::ShardOrigin& origin) {
-  scene::SceneShard part{vocabulary, origin, {}, {}};
+  scene::SceneShard part{vocabulary, origin, {}, {}, {}};
   const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
-  for (const Sampled& one : scenes) {
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    const Sampled& one = scenes[i];
     part.attempts.push_back(one.attempt);
     if (!one.attempt.valid) continue;
+    if (!prompts.empty()) part.prompts.push_back(prompts[i % prompts.size()]);
     part.tokens.resize(part.tokens.size() + size);
     EncodeScene(one.objects, vocabulary, &part.tokens[part.tokens.size() - size]);
   }
@@ -98,25 +107,39 @@ scene::ShardOrigin OriginOf(const SceneSamplingRequest& request, const fs::path&
   settings["steps"] = request.sampling.steps;
   settings["eta"] = request.sampling.eta;
   settings["raw"] = request.raw;
+  if (!request.sampling.prompts.empty()) {
+    settings["guidance"] = request.sampling.guidance;
+    settings["prompts"] = request.sampling.prompts;
+  }
   if (!request.raw) settings["lowering"] = kLowering;
   return {request.sampling.seed, 0, "{}", core::JsonLine(settings), SIMWRIGHT_VERSION};
 }
 
-}  // namespace
-
-SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Progress* progress) {
-  if (request.count < 1) throw core::Error("at least 1 scene must be sampled", "--count");
-  const fs::path weights = SamplingWeights(request);
-  scene::SceneModel model = scene::SceneModel::Load(weights);
+// Loads the model and adds the requested assets to it.
+scene::SceneModel LoadWithAssets(const SceneSamplingRequest& request, const fs::path& weights) {
+  scene::SceneModel model = scene::SceneModel::Load(weights, request.text_encoder);
   for (const auto& [category, folder] : request.added) {
     if (assets::FileSafeName(category) != category) {
       throw core::Error("a category must be a valid folder name", category);
     }
     model.AddAsset(category, ShapeOfAsset(folder, model.metadata().options.shape_points));
   }
+  return model;
+}
+
+}  // namespace
+
+SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progress* progress) {
+  if (wanted.count < 1) throw core::Error("at least 1 scene must be sampled", "--count");
+  const fs::path weights = SamplingWeights(wanted);
+  const scene::SceneModel model = LoadWithAssets(wanted, weights);
   const scene::Vocabulary& vocabulary = model.metadata().vocabulary;
-  core::StagedFolder staged(request.output, request.force);
   core::Findings findings;
+  SceneSamplingRequest request = wanted;
+  const std::vector<scene::Prompt> prompts =
+      ReadPrompts(request.prompts, request.prompt_file, vocabulary, &findings);
+  request.sampling.prompts = TextsOf(prompts);
+  core::StagedFolder staged(request.output, request.force);
   const scene::AssetSet asset_set =
       scene::ReadAssetSet(GatherSceneAssets({vocabulary.categories, request.added, request.assets,
                                              staged.staging() / "assets", &findings},
@@ -132,7 +155,9 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Prog
   const std::vector<Sampled> scenes =
       FinishScenes(tokens, vocabulary, asset_set, request.raw, progress);
   report.physics_seconds = SamplingSeconds(start);
-  const scene::SceneShard part = PartOf(scenes, vocabulary, OriginOf(request, weights));
+  const scene::SceneShard part =
+      PartOf(scenes, vocabulary, request.sampling.prompts, OriginOf(request, weights));
+  report.prompts = ReportsOf(prompts, ObjectsOf(scenes), asset_set.Sizes());
   scene::WriteShard(part, staged.staging() / scene::ShardName(0));
   report.statistics = StatisticsOf(part.attempts);
   report.statistics.type = vocabulary.type;
@@ -160,7 +185,7 @@ std::string SamplingTable(const SceneSamplingReport& report) {
     std::snprintf(line, sizeof line, ", physics in %.1f s", report.physics_seconds);
     text += line;
   }
-  return text + "\n" + StatisticsTable(report.statistics);
+  return text + "\n" + PromptTable(report.prompts) + StatisticsTable(report.statistics);
 }
 
 std::string SamplingJson(const SceneSamplingReport& report) {
@@ -168,6 +193,7 @@ std::string SamplingJson(const SceneSamplingReport& report) {
       core::ParseOrderedJson(StatisticsJson(report.statistics), "the statistics");
   json["output"] = report.output.string();
   json["raw"] = report.raw;
+  if (!report.prompts.empty()) json["prompts"] = PromptJson(report.prompts);
   json["sampling_seconds"] = report.sampling_seconds;
   json["physics_seconds"] = report.physics_seconds;
   return core::JsonText(json);

@@ -7,6 +7,7 @@
 #include "core/progress.h"
 #include "scene/model/scene_model.h"
 #include "workflows/scenes/scene_generation.h"
+#include "workflows/scenes/scene_prompts.h"
 
 namespace simwright::workflows {
 
@@ -19,8 +20,13 @@ struct SceneSamplingRequest {
   // Assets that the model has not seen, by their new category.
   scene::CategoryFolders added;
   scene::SampleOptions sampling;
-  bool raw = false;    // keeps the model's samples unchanged
-  bool force = false;  // replaces an existing output
+  // Free text (scene::ReadPrompt): scene i has prompt i % n of `prompts` and then the lines of
+  // `prompt_file`; none: unprompted. sampling.prompts is set from these.
+  std::vector<std::string> prompts;
+  std::filesystem::path prompt_file;
+  std::filesystem::path text_encoder;  // of a model that was trained with an external one
+  bool raw = false;                    // keeps the model's samples unchanged
+  bool force = false;                  // replaces an existing output
 };
 
 struct SceneSamplingReport {
@@ -28,13 +34,14 @@ struct SceneSamplingReport {
   SceneStatistics statistics;  // "yield": the fraction that is valid after projection
   bool raw = false;
   double sampling_seconds = 0.0, physics_seconds = 0.0;
+  std::vector<PromptReport> prompts;  // one per prompt
 };
 
 // Samples scenes from a trained model into output/part_00000.h5, a dataset in the format of `scene
 // generate`, with its assets and a contact sheet. Unless `raw`, interpenetrations of each scene are
 // resolved and it is settled; scenes that are then not valid are omitted and counted. Throws
-// core::Error for a file without weights, an existing output, a type without weights, or assets for
-// a model that does not embed shapes.
+// core::Error for a file without weights, an existing output, a type without weights, assets for a
+// model that does not embed shapes, prompts for one that reads none, or as scene::ReadPrompt does.
 SceneSamplingReport SampleScenes(const SceneSamplingRequest& request, core::Progress* progress);
 
 std::string SamplingTable(const SceneSamplingReport& report);

@@ -1,0 +1,130 @@
+#include "workflows/scenes/scene_prompts.h"
+
+#include <cstdio>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "physics_params/wordnet.h"
+#include "scene/prompt/prompt_agreement.h"
+#include "scene/prompt/prompt_reading.h"
+
+namespace simwright::workflows {
+namespace {
+
+// A prompt with its place for messages.
+struct PlacedPrompt {
+  std::string text, place;
+};
+
+// Reads the lines of a file that are not blank.
+std::vector<PlacedPrompt> LinesOf(const std::filesystem::path& file) {
+  std::vector<PlacedPrompt> lines;
+  std::istringstream text(core::ReadFile(file));
+  int number = 0;
+  for (std::string line; std::getline(text, line);) {
+    ++number;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.find_first_not_of(" \t") == std::string::npos) continue;
+    lines.push_back({line, file.string() + ":" + std::to_string(number)});
+  }
+  if (lines.empty()) throw core::Error("it has no prompts", file.string(), "write one per line");
+  return lines;
+}
+
+PromptReport ReportOf(const scene::Prompt& prompt, size_t index, size_t prompts,
+                      const std::vector<std::vector<scene::SceneObject>>& scenes,
+                      const scene::CategorySizes& sizes) {
+  PromptReport report;
+  report.text = prompt.Text();
+  double held = 0.0;
+  for (size_t i = index; i < scenes.size(); i += prompts) {
+    const scene::PromptAgreement agreement = AgreementWith(prompt, scenes[i], sizes);
+    ++report.scenes;
+    report.apf += agreement.apf;
+    report.strict += agreement.strict;
+    report.statements = agreement.statements;
+    held += agreement.StatementShare();
+  }
+  if (report.scenes == 0) return report;
+  report.apf /= report.scenes;
+  report.strict /= report.scenes;
+  report.held = held / report.scenes;
+  return report;
+}
+
+}  // namespace
+
+std::vector<scene::Prompt> ReadPrompts(const std::vector<std::string>& texts,
+                                       const std::filesystem::path& file,
+                                       const scene::Vocabulary& vocabulary,
+                                       core::Findings* findings) {
+  std::vector<PlacedPrompt> placed;
+  for (const std::string& text : texts) placed.push_back({text, "--prompt"});
+  if (!file.empty()) {
+    const std::vector<PlacedPrompt> lines = LinesOf(file);
+    placed.insert(placed.end(), lines.begin(), lines.end());
+  }
+  std::vector<scene::Prompt> prompts;
+  for (const PlacedPrompt& one : placed) {
+    scene::PromptReading reading;
+    try {
+      reading = ReadPrompt(one.text, vocabulary, physics_params::WordNet::Installed());
+    } catch (const core::Error& error) {
+      throw core::Error(error.what(), one.place);
+    }
+    for (core::Finding finding : reading.findings) {
+      finding.place = one.place;
+      findings->push_back(std::move(finding));
+    }
+    prompts.push_back(std::move(reading.prompt));
+  }
+  return prompts;
+}
+
+std::vector<std::string> TextsOf(const std::vector<scene::Prompt>& prompts) {
+  std::vector<std::string> texts;
+  for (const scene::Prompt& prompt : prompts) texts.push_back(prompt.Text());
+  return texts;
+}
+
+std::vector<PromptReport> ReportsOf(const std::vector<scene::Prompt>& prompts,
+                                    const std::vector<std::vector<scene::SceneObject>>& scenes,
+                                    const scene::CategorySizes& sizes) {
+  std::vector<PromptReport> reports;
+  for (size_t i = 0; i < prompts.size(); ++i) {
+    reports.push_back(ReportOf(prompts[i], i, prompts.size(), scenes, sizes));
+  }
+  return reports;
+}
+
+std::string PromptTable(const std::vector<PromptReport>& reports) {
+  std::string text;
+  for (const PromptReport& report : reports) {
+    char line[160];
+    std::snprintf(line, sizeof line, ": agreement %.2f, exact in %.0f %% of %d", report.apf,
+                  100.0 * report.strict, report.scenes);
+    text += "\"" + (report.text.empty() ? "(no prompt)" : report.text) + "\"" + line;
+    if (report.statements > 0) {
+      std::snprintf(line, sizeof line, ", %.0f %% of the relations hold", 100.0 * report.held);
+      text += line;
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+core::OrderedJson PromptJson(const std::vector<PromptReport>& reports) {
+  core::OrderedJson json = core::OrderedJson::array();
+  for (const PromptReport& report : reports) {
+    json.push_back({{"prompt", report.text},
+                    {"scenes", report.scenes},
+                    {"apf", report.apf},
+                    {"strict_share", report.strict},
+                    {"relations", report.statements},
+                    {"relations_held_share", report.held}});
+  }
+  return json;
+}
+
+}  // namespace simwright::workflows

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/finding.h"
+#include "core/json.h"
+#include "scene/dataset/vocabulary.h"
+#include "scene/grammar/category_size.h"
+#include "scene/grammar/scene_sample.h"
+#include "scene/prompt/prompt.h"
+
+namespace simwright::workflows {
+
+// Reads prompts in free text: `texts`, then the lines of `file` (empty: none) that are not blank.
+// Adds the findings of their words to `findings`. Throws core::Error for a missing file and as
+// scene::ReadPrompt does, naming the prompt.
+std::vector<scene::Prompt> ReadPrompts(const std::vector<std::string>& texts,
+                                       const std::filesystem::path& file,
+                                       const scene::Vocabulary& vocabulary,
+                                       core::Findings* findings);
+
+// Returns the texts that a model reads.
+std::vector<std::string> TextsOf(const std::vector<scene::Prompt>& prompts);
+
+// The agreement of scenes with a prompt, means over its scenes.
+struct PromptReport {
+  std::string text;
+  int scenes = 0;
+  double apf = 0.0;     // PromptAgreement::apf
+  double strict = 0.0;  // share of scenes that agree exactly
+  int statements = 0;   // relations and tiers that the prompt asks for
+  double held = 0.0;    // share of them that hold
+};
+
+// Returns one report per prompt; scene i has prompt i % n. Empty if there are no prompts.
+std::vector<PromptReport> ReportsOf(const std::vector<scene::Prompt>& prompts,
+                                    const std::vector<std::vector<scene::SceneObject>>& scenes,
+                                    const scene::CategorySizes& sizes);
+
+// Format the reports as lines for people and as JSON.
+std::string PromptTable(const std::vector<PromptReport>& reports);
+core::OrderedJson PromptJson(const std::vector<PromptReport>& reports);
+
+}  // namespace simwright::workflows
