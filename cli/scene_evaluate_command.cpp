@@ -87,6 +87,7 @@ void AddSceneEvaluate(CLI::App* scene, CommonOptions* common, Run* run) {
       "Examples:\n  simwright scene evaluate --type dimsum -o out/evaluated\n"
       "  simwright scene evaluate --model out/dimsum_model/model.pt --data out/dimsum\n"
       "  simwright scene evaluate --samples out/sampled --data out/dimsum --training-scenes 900\n"
+      "  simwright scene evaluate --model out/pantry_model/model.pt --data out/pantry --prompts\n"
       "The first two sample scenes themselves. See docs/scenes.md for the metrics.");
   command->add_option("--type", request->type, "The scene type, with its shipped weights");
   command->add_option("--model", request->weights, "A model written by `simwright scene train`");
@@ -108,6 +109,16 @@ void AddSceneEvaluate(CLI::App* scene, CommonOptions* common, Run* run) {
       ->add_option("--feature-side", request->feature_side,
                    "Side of its images, pixels: 299 (Inception), 224 (AlexNet)")
       ->capture_default_str();
+  command->add_flag("--prompts", request->prompted,
+                    "Sample with the prompts of held-out scenes, and measure how well the samples "
+                    "agree with them");
+  command
+      ->add_option("--guidance", request->sampling.guidance,
+                   "Weight of classifier-free guidance; 0: none")
+      ->capture_default_str();
+  command->add_option(
+      "--text-encoder", request->text_encoder,
+      "The TorchScript text encoder that the model was trained with, if it has one");
   command->add_option("--steps", request->sampling.steps, "Diffusion steps; 0: all")
       ->capture_default_str();
   command->add_option("-o,--output", request->output, "The folder for metrics.json and sheet.png");

@@ -57,6 +57,10 @@ std::unique_ptr<ExternalTextEncoder> EncoderOf(const SceneModelMetadata& metadat
 
 }  // namespace
 
+SceneModelMetadata ReadSceneModelMetadata(const std::filesystem::path& weights) {
+  return ReadWeights(weights).metadata;
+}
+
 bool SampleOptions::IsValid(std::string* error) const {
   const auto fails = [&](const char* what) {
     *error = what;

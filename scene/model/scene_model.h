@@ -44,6 +44,9 @@ struct SceneModelMetadata {
   std::string text_encoder = "";              // hash of the external text encoder; empty: its own
 };
 
+// Returns the metadata of a weights file. Throws core::Error if it is missing or not a scene model.
+SceneModelMetadata ReadSceneModelMetadata(const std::filesystem::path& weights);
+
 // A trained model of scenes. Thread-safe unless AddAsset is called.
 class SceneModel {
  public:

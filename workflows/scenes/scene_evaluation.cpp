@@ -105,6 +105,10 @@ class Evaluation {
       result_.training = Compared(some_training_, "training scenes");
     }
     if (!sets_.training.empty()) CompareDistances();
+    if (!sets_.prompts.empty()) {
+      result_.prompts = MeasurePrompts(sets_.prompts, sets_.samples, sets_.prompted_scenes,
+                                       sets_.asset_set.Sizes(), progress_);
+    }
     return std::move(result_);
   }
 

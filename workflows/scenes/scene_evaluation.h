@@ -11,6 +11,7 @@
 #include "scene/metrics/classifier_accuracy.h"
 #include "scene/metrics/scene_distance.h"
 #include "scene/model/scene_model.h"
+#include "workflows/scenes/prompt_evaluation.h"
 
 namespace simwright::workflows {
 
@@ -30,7 +31,10 @@ struct SceneEvaluationRequest {
   std::filesystem::path features;
   int feature_side = 299;
   scene::SampleOptions sampling;
-  std::filesystem::path output;  // for metrics.json and sheet.png; empty: none
+  // True: the samples follow prompts, those of the held-out scenes, one each.
+  bool prompted = false;
+  std::filesystem::path text_encoder;  // of a model that was trained with an external one
+  std::filesystem::path output;        // for metrics.json and sheet.png; empty: none
   std::uint64_t seed = 1;
 };
 
@@ -70,7 +74,8 @@ struct SceneEvaluation {
   std::optional<SceneSetMetrics> training;
   scene::SceneDistanceOptions distance;
   std::optional<DistanceSummary> sample_distance, held_out_distance;  // with training scenes
-  double learning_rate = 0.0;                                         // the classifier's
+  std::optional<PromptMetrics> prompts;  // of samples that have prompts
+  double learning_rate = 0.0;            // the classifier's
   core::Findings findings;
   double seconds = 0.0;
 };

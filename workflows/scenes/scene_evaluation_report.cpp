@@ -108,6 +108,7 @@ std::string EvaluationTable(const SceneEvaluation& evaluation) {
                 kCentimetres * evaluation.reference_penetration.median,
                 kCentimetres * evaluation.reference_penetration.box_median);
   text += line;
+  if (evaluation.prompts) text += PromptMetricsTable(*evaluation.prompts);
   if (evaluation.sample_distance) {
     std::snprintf(line, sizeof line,
                   "distance to the nearest of %d training scenes, m\n  %-20s %8s %8s %8s %8s %8s\n",
@@ -131,6 +132,7 @@ std::string EvaluationJson(const SceneEvaluation& evaluation) {
                        {"penetration", PenetrationJson(evaluation.reference_penetration)}};
   json["samples"] = SetJson(evaluation.samples);
   if (evaluation.training) json["training"] = SetJson(*evaluation.training);
+  if (evaluation.prompts) json["prompts"] = PromptMetricsJson(*evaluation.prompts);
   json["training_scenes"] = evaluation.training_scenes;
   if (evaluation.sample_distance) {
     core::OrderedJson& nearest = json["nearest_training_scene_m"];

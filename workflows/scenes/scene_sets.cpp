@@ -8,8 +8,10 @@
 #include "scene/asset_set/asset_set_folder.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
+#include "scene/prompt/prompt_drawing.h"
 #include "workflows/scenes/scene_assets.h"
 #include "workflows/scenes/scene_generation.h"
+#include "workflows/scenes/scene_prompts.h"
 #include "workflows/scenes/scene_sampling.h"
 #include "workflows/scenes/scene_weights.h"
 
@@ -80,14 +82,36 @@ int TrainingScenes(const SceneEvaluationRequest& request, const scene::SceneData
   return std::min(there, metadata->training_scenes);
 }
 
+// Returns the prompts of held-out scenes `first` and following, stored or, for older datasets,
+// drawn now.
+std::vector<std::string> HeldOutPrompts(const scene::SceneDataset& data, int first, int count) {
+  if (count < 1) {
+    throw core::Error("prompts come from held-out scenes, and there are none", "",
+                      "hold scenes out, or leave --prompts out");
+  }
+  std::vector<std::string> prompts = data.ReadPrompts(first, count);
+  if (!prompts.empty()) return prompts;
+  const scene::PromptDrawing drawing(data.vocabulary(), scene::DefaultCategorySizes());
+  const std::vector<float> tokens = data.Read(first, count);
+  const size_t size = tokens.size() / static_cast<size_t>(count);
+  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+    core::Rng rng = core::StreamRng(data.parts().front().origin().seed, i);
+    prompts.push_back(drawing.Draw(&tokens[i * size], rng).Text());
+  }
+  return prompts;
+}
+
 void Sample(const SceneEvaluationRequest& request, const fs::path& weights,
-            const std::vector<fs::path>& assets, const fs::path& output, core::Progress* progress) {
+            const std::vector<fs::path>& assets, const std::vector<std::string>& prompts,
+            const fs::path& output, core::Progress* progress) {
   SceneSamplingRequest sampling;
   sampling.weights = weights;
   sampling.count = request.count;
   sampling.output = output;
   sampling.assets = assets;
   sampling.sampling = request.sampling;
+  sampling.prompts = prompts;
+  sampling.text_encoder = request.text_encoder;
   sampling.raw = true;
   sampling.force = true;
   SampleScenes(sampling, progress);
@@ -111,7 +135,7 @@ SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path&
                           core::Findings* findings, core::Progress* progress) {
   const fs::path weights = SetWeights(request);
   std::optional<scene::SceneModelMetadata> metadata;
-  if (!weights.empty()) metadata = scene::SceneModel::Load(weights).metadata();
+  if (!weights.empty()) metadata = scene::ReadSceneModelMetadata(weights);
   std::optional<scene::SceneDataset> samples;
   if (!request.samples.empty()) samples.emplace(request.samples);
   SceneSets sets;
@@ -126,8 +150,12 @@ SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path&
           : Generated(request, type, metadata ? metadata->data_seed : 0, folder, progress);
   const scene::SceneDataset data(data_folder);
   const std::vector<fs::path> assets = AssetFolders(request, data_folder);
+  const int training = TrainingScenes(request, data, metadata, findings);
+  const int held_out = std::min(request.count, data.SceneCount() - training);
   if (!samples) {
-    Sample(request, weights, assets, folder / "samples", progress);
+    std::vector<std::string> prompts;
+    if (request.prompted) prompts = HeldOutPrompts(data, training, held_out);
+    Sample(request, weights, assets, prompts, folder / "samples", progress);
     samples.emplace(folder / "samples");
   } else {
     WarnOfPhysics(*samples, request.samples, findings);
@@ -138,10 +166,15 @@ SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path&
   }
   sets.asset_set = scene::ReadAssetSet(
       GatherSceneAssets({sets.vocabulary.categories, {}, assets, folder / "assets"}, progress));
-  const int training = TrainingScenes(request, data, metadata, findings);
   sets.samples = Decoded(*samples, 0, std::min(request.count, samples->SceneCount()));
   sets.training = Decoded(data, 0, training);
-  sets.held_out = Decoded(data, training, std::min(request.count, data.SceneCount() - training));
+  sets.held_out = Decoded(data, training, held_out);
+  const auto sampled = static_cast<int>(sets.samples.size());
+  const std::vector<std::string> prompts = samples->ReadPrompts(0, sampled);
+  if (!prompts.empty()) {
+    sets.prompts = ReadPrompts(prompts, {}, sets.vocabulary, findings);
+    if (request.prompted) sets.prompted_scenes = sets.held_out;
+  }
   return sets;
 }
 

@@ -7,6 +7,7 @@
 #include "core/progress.h"
 #include "scene/asset_set/asset_set.h"
 #include "scene/dataset/vocabulary.h"
+#include "scene/prompt/prompt.h"
 #include "workflows/scenes/scene_evaluation.h"
 
 namespace simwright::workflows {
@@ -20,6 +21,9 @@ struct SceneSets {
   SceneSet samples;
   SceneSet training;  // all training scenes
   SceneSet held_out;  // at most `count`
+  // The prompts of the samples, sample i with prompt i; empty if they have none.
+  std::vector<scene::Prompt> prompts;
+  SceneSet prompted_scenes;  // the held-out scenes that the prompts were drawn from, if known
 };
 
 // Finds, generates and samples the requested sets; keeps new ones in `folder`. Throws as
