@@ -49,8 +49,8 @@ void ContactPlanes::UpdatePair(const std::vector<Vector3d>& shifts, BodyPair* pa
         planes.push_back(plane);
       });
   pair->planes = std::move(planes);
-  if (!by_hull && Deepest(*pair) > options_.tolerance && IsHullSeparationShorter(*pair, shifts)) {
-    UseConvexHull(pair->a, pair->b);
+  if (!by_hull && Deepest(*pair) > options_.tolerance && IsHullSeparationShorter(*pair, shifts) &&
+      UseConvexHull(pair->a, pair->b)) {
     pair->planes.clear();
     UpdatePair(shifts, pair);
   }
@@ -75,6 +75,26 @@ bool ContactPlanes::IsHullSeparationShorter(const BodyPair& pair,
   std::vector<Vector3d> displacement;  // of b only
   const double missing = SolveLeastDisplacement({1, 0}, least, &rows, &displacement);
   return missing > options_.tolerance || displacement[1].norm() > by_hull;
+}
+
+void ContactPlanes::ReplacePlane(const Vector3d& normal, double depth, const Vector3d& apart,
+                                 Plane* plane) {
+  plane->normal = normal;
+  plane->bound = -depth;
+  plane->taken_at = apart;
+  plane->least = normal.dot(apart) + depth;
+  plane->lambda = 0.0;
+}
+
+bool ContactPlanes::SwitchToNormal(int a, int b, const Vector3d& normal,
+                                   const std::vector<Vector3d>& shifts) {
+  for (BodyPair& pair : pairs_) {
+    if (pair.a != a || pair.b != b || pair.planes.size() != 1) continue;
+    const Vector3d apart = shifts[static_cast<size_t>(b)] - shifts[static_cast<size_t>(a)];
+    ReplacePlane(normal, bodies_->DepthAlong(a, b, apart, normal), apart, &pair.planes.front());
+    return true;
+  }
+  return false;
 }
 
 void ContactPlanes::SwitchToLateralNormal(const std::vector<std::pair<int, int>>& pairs,
@@ -103,12 +123,7 @@ void ContactPlanes::SwitchToLateralNormal(const std::vector<std::pair<int, int>>
       replaced = &plane;
     }
   }
-  if (!replaced) return;
-  replaced->normal = best;
-  replaced->bound = -shallowest;
-  replaced->taken_at = taken_at;
-  replaced->least = best.dot(taken_at) + shallowest;
-  replaced->lambda = 0.0;
+  if (replaced) ReplacePlane(best, shallowest, taken_at, replaced);
 }
 
 std::vector<SeparationConstraint> ContactPlanes::Rows() const {

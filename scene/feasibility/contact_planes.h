@@ -45,12 +45,21 @@ class ContactPlanes {
   std::vector<Overlap> Overlaps() const;
 
   // Represents two bodies by their hulls from the next Update on; returns false if they already
-  // are.
-  bool UseConvexHull(int a, int b) { return by_hull_.insert({a, b}).second; }
-  // Replaces the plane of one of these pairs, which are represented by their hulls, until the
-  // Update after the next displacement: by a plane with a normal perpendicular to the current one
-  // and the least depth over all the pairs. A body that cannot move up, between two boards, can
-  // then move sideways.
+  // are, or keep their parts.
+  bool UseConvexHull(int a, int b) {
+    return by_parts_.count({a, b}) == 0 && by_hull_.insert({a, b}).second;
+  }
+  // Represents two bodies, a < b, by their parts always: one is inside the other.
+  void KeepParts(int a, int b) { by_parts_.insert({a, b}); }
+  void ReleaseParts(int a, int b) { by_parts_.erase({a, b}); }
+  // Replaces the plane of a pair that is represented by its hulls, until the Update after the next
+  // displacement: by the one with this unit normal, from a to b. Returns false if the pair has no
+  // such plane.
+  bool SwitchToNormal(int a, int b, const Eigen::Vector3d& normal,
+                      const std::vector<Eigen::Vector3d>& shifts);
+  // Replaces the plane of one of these pairs likewise: by a plane with a normal perpendicular to
+  // the current one and the least depth over all the pairs. A body that cannot move up, between two
+  // boards, can then move sideways.
   void SwitchToLateralNormal(const std::vector<std::pair<int, int>>& pairs,
                              const std::vector<Eigen::Vector3d>& shifts);
 
@@ -67,6 +76,10 @@ class ContactPlanes {
     std::vector<Plane> planes;  // sorted by part_a, part_b; distant ones too, as bounds
   };
 
+  // Replaces a plane by one whose hulls overlap by `depth` (m) at the relative displacement
+  // `apart`.
+  static void ReplacePlane(const Eigen::Vector3d& normal, double depth,
+                           const Eigen::Vector3d& apart, Plane* plane);
   void UpdatePair(const std::vector<Eigen::Vector3d>& shifts, BodyPair* pair);
   bool IsHullSeparationShorter(const BodyPair& pair,
                                const std::vector<Eigen::Vector3d>& shifts) const;
@@ -75,7 +88,7 @@ class ContactPlanes {
   const ConvexBodies* bodies_;
   ContactPlaneOptions options_;
   std::vector<BodyPair> pairs_;  // sorted by a, b
-  std::set<std::pair<int, int>> by_hull_;
+  std::set<std::pair<int, int>> by_hull_, by_parts_;
 };
 
 }  // namespace simwright::scene

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/distance.h"
+#include "scene/feasibility/kept_relation.h"
 #include "scene/feasibility/overlap.h"
 
 namespace simwright::scene {
@@ -36,6 +37,7 @@ struct Projection {
   bool feasible = false;                // true if no penetration exceeds the tolerance
   std::vector<Eigen::Vector3d> shifts;  // (N x 3) m, world; zero for fixed bodies
   std::vector<Overlap> overlaps;        // the deepest first; empty if feasible
+  std::vector<int> broken;              // indices of the relations that do not hold, ascending
   double cost = 0.0;                    // m^2, the sum of squared shifts
   int rounds = 0;
 };
@@ -46,10 +48,14 @@ struct Projection {
 // convex parts is convex in their displacement, so that its tangent at any point, d + n . dp, is a
 // lower bound: the quadratic program of a round keeps the tangents above zero, and the next round
 // linearizes again at its solution (ContactPlanes). The program is solved in its dual,
-// constraint by constraint (Hildreth 1957). If there is no solution, the result is the best one
-// found, with its overlaps. Throws core::Error for invalid options, a body without parts, or
-// numbers that are not finite. Scales to thousands of bodies; distant parts cost nothing.
+// constraint by constraint (Hildreth 1957). `relations` are further constraints, linearized like
+// contacts (LinearizeRelation); where not all constraints can hold, relations are given up one by
+// one, the most strained first, and what does not hold in the end is listed. If there is no
+// solution, the result is the best one found, with its overlaps. Throws core::Error for invalid
+// options, a body without parts, relations of bodies that do not exist, or numbers that are not
+// finite. Scales to thousands of bodies; distant parts cost nothing.
 Projection ResolvePenetrations(const std::vector<ProjectedBody>& bodies,
-                               const DepenetrationOptions& options = {});
+                               const DepenetrationOptions& options = {},
+                               const std::vector<KeptRelation>& relations = {});
 
 }  // namespace simwright::scene

@@ -11,13 +11,8 @@
 namespace simwright::scene {
 namespace {
 
-constexpr double kContact = 0.02;      // m, of a base to what it rests on
-constexpr double kSunk = 0.01;         // m, of an inner object's base below the rim
-constexpr double kBelowBase = 0.005;   // m, tolerance of an inner object's base
-constexpr double kOverlap = 0.001;     // m, of two level boxes in height
-constexpr double kOffset = 0.01;       // m, smallest horizontal offset with a direction
 constexpr double kOrdinalStep = 0.01;  // m
-const double kCosFacing = std::cos(30.0 * 3.14159265358979323846 / 180.0);
+const double kCosFacing = std::cos(kFacingAngle);
 
 constexpr std::array<const char*, kRelationCount> kRelationTexts = {
     "on",          "above",  "below",   "inside", "to the left of", "to the right of",
@@ -34,23 +29,24 @@ bool IsOver(const PlacedBox& a, const PlacedBox& b) {
 
 bool IsOn(const PlacedBox& a, const PlacedBox& b) {
   const double base = a.Base();
-  return (std::abs(base - b.Top()) <= kContact || std::abs(base - b.rest) <= kContact) &&
+  return (std::abs(base - b.Top()) <= kContactHeight ||
+          std::abs(base - b.rest) <= kContactHeight) &&
          IsOver(a, b);
 }
 
 bool IsInside(const PlacedBox& a, const PlacedBox& b) {
   const double base = a.Base();
-  return base < b.Top() - kSunk && base >= b.Base() - kBelowBase && IsOver(a, b);
+  return base < b.Top() - kSunkDepth && base >= b.Base() - kBaseTolerance && IsOver(a, b);
 }
 
 bool IsAbove(const PlacedBox& a, const PlacedBox& b) {
   const double gap = a.Base() - b.Top();
-  return gap > kContact && gap < kNearDistance && (IsOver(a, b) || IsOver(b, a));
+  return gap > kContactHeight && gap < kNearDistance && (IsOver(a, b) || IsOver(b, a));
 }
 
 bool IsLevel(const PlacedBox& a, const PlacedBox& b) {
   const double overlap = std::min(a.Top(), b.Top()) - std::max(a.Base(), b.Base());
-  return overlap > kOverlap || std::abs(a.Base() - b.Base()) < kContact;
+  return overlap > kLevelOverlap || std::abs(a.Base() - b.Base()) < kContactHeight;
 }
 
 bool IsStacked(const PlacedBox& a, const PlacedBox& b) {
@@ -60,7 +56,7 @@ bool IsStacked(const PlacedBox& a, const PlacedBox& b) {
 // Returns the direction from b to a if they are near, level and not stacked.
 std::optional<Relation> DirectionOf(const PlacedBox& a, const PlacedBox& b) {
   const double x = a.center.x() - b.center.x(), y = a.center.y() - b.center.y();
-  if (std::max(std::abs(x), std::abs(y)) < kOffset || !IsLevel(a, b) ||
+  if (std::max(std::abs(x), std::abs(y)) < kLeastOffset || !IsLevel(a, b) ||
       BoxDistance(a, b) >= kNearDistance || IsStacked(a, b)) {
     return std::nullopt;
   }
@@ -71,7 +67,7 @@ std::optional<Relation> DirectionOf(const PlacedBox& a, const PlacedBox& b) {
 bool IsFacing(const PlacedBox& a, const PlacedBox& b) {
   const Eigen::Vector2d to_b = (b.center - a.center).head<2>();
   const double length = to_b.norm(), forward = a.forward.norm();
-  if (length < kOverlap || forward < 0.5) return false;
+  if (length < kLevelOverlap || forward < 0.5) return false;
   return a.forward.dot(to_b) >= kCosFacing * length * forward;
 }
 
@@ -166,7 +162,7 @@ std::optional<ShelfTier> Shelves::TierOf(const PlacedBox& box) const {
     const double base = center.z() - box.half.z();
     const auto& heights = ShelfBoardHeights();
     for (size_t i = heights.size(); i-- > 0;) {
-      if (base < heights[i] * shelf.scale - kContact) continue;
+      if (base < heights[i] * shelf.scale - kContactHeight) continue;
       return static_cast<ShelfTier>(heights.size() - 1 - i);
     }
   }

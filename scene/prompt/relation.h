@@ -40,6 +40,14 @@ std::optional<Relation> RelationNamed(std::string_view text);
 // say between which points.
 inline constexpr double kNearDistance = 0.2;
 
+// Further limits of relations, m (Holds).
+inline constexpr double kContactHeight = 0.02;   // of a base to what it rests on
+inline constexpr double kSunkDepth = 0.01;       // of an inner object's base below the rim
+inline constexpr double kBaseTolerance = 0.005;  // of an inner object's base
+inline constexpr double kLevelOverlap = 0.001;   // of two level boxes in height
+inline constexpr double kLeastOffset = 0.01;     // horizontal, with a direction
+inline constexpr double kFacingAngle = 0.5235987755982988;  // rad, 30 degrees
+
 // The axis-aligned bounding box of an object in the world frame, m.
 struct PlacedBox {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
