@@ -108,6 +108,47 @@ TEST(SceneTraining, LearnsWhatScenesHold) {
             std::vector<float>(model.Sample(2, options, &progress)));
 }
 
+// Half of the scenes have a plate: a prompt decides which.
+TEST(SceneTraining, FollowsPrompts) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 200);
+  core::Progress progress;
+  SceneModelOptions small = SceneTrainingSmall();
+  small.text = true;
+  SceneTrainingOptions training = Short(500);
+  training.text_pieces = 80;
+  const SceneTrainingReport report = TrainSceneModel(SceneDataset(folder.path()), small, training,
+                                                     folder.path() / "run", &progress);
+  const SceneModel model = SceneModel::Load(report.weights);
+  EXPECT_LE(model.metadata().text_pieces.size(), 80u);
+  const size_t size =
+      static_cast<size_t>(SceneTrainingWords().entries * SceneTrainingWords().TokenWidth());
+  const auto plates = [&](const std::vector<std::string>& prompts, double guidance) {
+    constexpr int kScenes = 32;
+    SampleOptions options;
+    options.steps = 50;
+    options.prompts = prompts;
+    options.guidance = guidance;
+    const std::vector<float> tokens = model.Sample(kScenes, options, &progress);
+    std::vector<int> count(2, 0);  // of even and odd scenes
+    for (size_t i = 0; i < kScenes; ++i) {
+      for (const SceneObject& object : DecodeScene(&tokens[i * size], SceneTrainingWords())) {
+        count[i % 2] += object.category == "plate";
+      }
+    }
+    return count;
+  };
+  const std::string with = "A scene with a cup and a plate.", without = "A scene with a cup.";
+  for (const double guidance : {0.0, 1.0}) {
+    const std::vector<int> prompted = plates({with, without}, guidance);
+    EXPECT_GE(prompted[0], 14) << guidance;
+    EXPECT_LE(prompted[1], 2) << guidance;
+  }
+  const std::vector<int> free = plates({}, 0.0);
+  EXPECT_NEAR(free[0] + free[1], 16, 9);
+  EXPECT_THROW(SceneModel::Load(report.weights, report.weights), core::Error);
+}
+
 // A model with classes by shape treats a new asset like a similar one: a mug a little larger than
 // the cups stands at the cups' positions, as often as they do, and plates remain plates.
 TEST(SceneTraining, PlacesAnAssetItHasNotSeen) {

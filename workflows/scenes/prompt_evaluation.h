@@ -19,9 +19,9 @@ struct PromptMetrics {
   // APF as published: over the prompts of the first two kinds.
   double apf = 0.0;
   double strict = 0.0;  // share of all prompts that are followed exactly
-  // Of the prompts with relations: the mean share that holds; the same whatever the ordinals are;
-  // by chance, with the positions of a scene's objects permuted; and in the reference scenes, from
-  // which the prompts were drawn, if these are known.
+  // The mean share of a prompt's relations that holds, over the prompts with relations; the same
+  // whatever the ordinals are; by chance, with the positions of a scene's objects permuted; and in
+  // the reference scenes, from which the prompts were drawn, if these are known.
   double held = 0.0, held_by_any = 0.0, held_by_chance = 0.0;
   std::optional<double> held_in_reference;
 };
