@@ -6,6 +6,7 @@
 #include "cli/findings_output.h"
 #include "cli/scene_export_command.h"
 #include "cli/scene_model_commands.h"
+#include "cli/scene_steering_commands.h"
 #include "core/error.h"
 #include "core/json.h"
 #include "scene/scene_types/scene_types.h"
@@ -94,6 +95,8 @@ void AddScene(CLI::App* app, CommonOptions* common, Run* run) {
   AddGenerate(scene, common, run);
   AddSceneTrain(scene, common, run);
   AddSceneSample(scene, common, run);
+  AddSceneComplete(scene, common, run);
+  AddSceneRearrange(scene, common, run);
   AddSceneEvaluate(scene, common, run);
   AddSceneFeatures(scene, common, run);
   AddSceneExport(scene, common, run);

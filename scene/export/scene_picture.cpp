@@ -32,7 +32,7 @@ Eigen::AlignedBox3d BoundsOf(const std::vector<SceneObject>& objects, const Asse
 }  // namespace
 
 core::Image RenderScene(const std::vector<SceneObject>& objects, const AssetSet& asset_set,
-                        const core::Camera& camera) {
+                        const core::Camera& camera, int samples_per_side) {
   if (objects.empty()) throw core::Error("a picture needs a scene with objects");
   render::Scene scene;
   for (const SceneObject& object : objects) {
@@ -41,22 +41,21 @@ core::Image RenderScene(const std::vector<SceneObject>& objects, const AssetSet&
   scene.Commit();
   render::ForwardOptions options;
   options.shaded = true;
-  options.samples_per_side = 3;
+  options.samples_per_side = samples_per_side;
   options.occlusion_rays = 8;
   return render::RenderForward(scene, camera, options).color;
 }
 
-core::Image RenderFromSide(const std::vector<SceneObject>& objects, const AssetSet& asset_set,
-                           int size) {
+core::Camera SideCamera(const std::vector<SceneObject>& objects, const AssetSet& asset_set,
+                        int size) {
   const Eigen::AlignedBox3d box = BoundsOf(objects, asset_set);
   const double distance = 0.5 * box.diagonal().norm() / std::sin(0.5 * kPictureFieldOfView);
-  return RenderScene(objects, asset_set,
-                     core::OrbitCamera(box.center(), distance, kElevation, kAzimuth,
-                                       kPictureFieldOfView, size, size));
+  return core::OrbitCamera(box.center(), distance, kElevation, kAzimuth, kPictureFieldOfView, size,
+                           size);
 }
 
-core::Image RenderFromAbove(const std::vector<SceneObject>& objects, const AssetSet& asset_set,
-                            int size) {
+core::Camera AboveCamera(const std::vector<SceneObject>& objects, const AssetSet& asset_set,
+                         int size) {
   const Eigen::AlignedBox3d box = BoundsOf(objects, asset_set);
   core::Camera camera;
   camera.width = camera.height = size;
@@ -70,7 +69,17 @@ core::Image RenderFromAbove(const std::vector<SceneObject>& objects, const Asset
   camera.world_from_camera.linear().col(2) = -Eigen::Vector3d::UnitZ();
   camera.world_from_camera.translation() = box.center();
   camera.world_from_camera.translation().z() = box.max().z() + distance;
-  return RenderScene(objects, asset_set, camera);
+  return camera;
+}
+
+core::Image RenderFromSide(const std::vector<SceneObject>& objects, const AssetSet& asset_set,
+                           int size) {
+  return RenderScene(objects, asset_set, SideCamera(objects, asset_set, size));
+}
+
+core::Image RenderFromAbove(const std::vector<SceneObject>& objects, const AssetSet& asset_set,
+                            int size) {
+  return RenderScene(objects, asset_set, AboveCamera(objects, asset_set, size));
 }
 
 }  // namespace simwright::scene

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/log.h"
@@ -97,7 +98,7 @@ double DeepestPenetration(const std::vector<SceneObject>& objects, const AssetSe
 // Drops the lighter object of each pair that interpenetrates too deeply, such as cutlery that
 // wedges the walls of its crock apart. Returns the number of dropped objects.
 int DropWedged(const AssetSet& asset_set, double depth, std::vector<SceneObject>* objects,
-               std::vector<Vector3d>* sampled_positions) {
+               std::vector<int>* indices) {
   std::vector<char> kept(objects->size(), 1);
   const auto mass = [&](int i) {
     const SceneObject& object = (*objects)[static_cast<size_t>(i)];
@@ -107,11 +108,11 @@ int DropWedged(const AssetSet& asset_set, double depth, std::vector<SceneObject>
     if (!kept[static_cast<size_t>(pair.a)] || !kept[static_cast<size_t>(pair.b)]) continue;
     kept[static_cast<size_t>(mass(pair.a) < mass(pair.b) ? pair.a : pair.b)] = 0;
   }
-  std::vector<Vector3d> left;
+  std::vector<int> left;
   for (size_t i = 0; i < kept.size(); ++i) {
-    if (kept[i]) left.push_back((*sampled_positions)[i]);
+    if (kept[i]) left.push_back((*indices)[i]);
   }
-  *sampled_positions = std::move(left);
+  *indices = std::move(left);
   *objects = Kept(*objects, kept);
   return static_cast<int>(std::count(kept.begin(), kept.end(), 0));
 }
@@ -157,13 +158,12 @@ FeasibleScene MakeFeasible(const std::vector<SceneObject>& objects, const AssetS
   FeasibleScene scene;
   scene.objects = objects;
   scene.projected = Arrange(asset_set, options, &scene.objects);
-  std::vector<Vector3d> sampled_positions;  // sampled positions of the kept objects
-  for (const SceneObject& object : objects)
-    sampled_positions.push_back(object.world_from_object.translation());
+  scene.indices.resize(objects.size());
+  std::iota(scene.indices.begin(), scene.indices.end(), 0);
   for (int pass = 0; pass < options.passes; ++pass) {
     const auto settled = SettleObjects(scene.objects, asset_set, options.settling);
     std::vector<char> kept(settled.size(), 1);
-    std::vector<Vector3d> left;
+    std::vector<int> left;
     bool any_moving = false;
     scene.drift = 0.0;
     for (size_t i = 0; i < settled.size(); ++i) {
@@ -173,12 +173,12 @@ FeasibleScene MakeFeasible(const std::vector<SceneObject>& objects, const AssetS
                 (settled[i].stable || still_moving);
       if (!kept[i]) continue;
       any_moving = any_moving || still_moving;
-      left.push_back(sampled_positions[i]);
+      left.push_back(scene.indices[i]);
       scene.drift = std::max(scene.drift, settled[i].drift);
     }
     const auto gone = static_cast<int>(std::count(kept.begin(), kept.end(), 0));
     scene.objects = Kept(scene.objects, kept);
-    sampled_positions = std::move(left);
+    scene.indices = std::move(left);
     scene.dropped += gone;
     if (gone == 0 && !any_moving) {
       scene.penetration = DeepestPenetration(scene.objects, asset_set);
@@ -186,8 +186,7 @@ FeasibleScene MakeFeasible(const std::vector<SceneObject>& objects, const AssetS
       // Bullet lets the parts of a heap sink in by a fraction of a millimetre. A body that does so
       // again has no room.
       if (pass > 0)
-        scene.dropped +=
-            DropWedged(asset_set, options.penetration, &scene.objects, &sampled_positions);
+        scene.dropped += DropWedged(asset_set, options.penetration, &scene.objects, &scene.indices);
       Depenetrate(asset_set, options.projection, &scene.objects);
     }
     // The objects near a dropped or moving one have not been checked without it.
@@ -198,7 +197,10 @@ FeasibleScene MakeFeasible(const std::vector<SceneObject>& objects, const AssetS
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     if (scene.objects[i].welded) continue;
     ++free;
-    scene.moved += (scene.objects[i].world_from_object.translation() - sampled_positions[i]).norm();
+    const SceneObject& sampled = objects[static_cast<size_t>(scene.indices[i])];
+    scene.moved +=
+        (scene.objects[i].world_from_object.translation() - sampled.world_from_object.translation())
+            .norm();
   }
   if (free > 0) scene.moved /= free;
   scene.valid = free >= options.min_objects && scene.drift <= options.settling.stable &&

@@ -43,6 +43,7 @@ struct FeasibleScene {
   // True if there are enough objects, no penetration exceeds the tolerance, and all are stable.
   bool valid = false;
   std::vector<SceneObject> objects;  // at rest; parents as sampled, re-indexed
+  std::vector<int> indices;          // of these objects in the input, ascending
   int dropped = 0;                   // objects that fell, toppled or did not come to rest
   double moved = 0.0;                // m, mean displacement of the kept objects
   double penetration = 0.0;          // m, the deepest, of convex parts

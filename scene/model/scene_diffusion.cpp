@@ -10,6 +10,7 @@ namespace simwright::scene {
 namespace {
 
 constexpr double kCrossEntropyShare = 5e-4;
+constexpr double kNoLogit = -1e9;  // of a class without probability
 
 // Samples on the CPU, so that a seed gives the same numbers on every device.
 torch::Tensor NormalLike(const torch::Tensor& like, const at::Generator& generator) {
@@ -74,11 +75,34 @@ DenoisingBatch SceneDiffusion::AddNoise(const CleanScenes& scenes,
     batch.noisy.classes = classes_.AddNoise(scenes.classes, batch.noisy.time, generator);
     return batch;
   }
-  const torch::Tensor one_hot =
-      2.0 * torch::one_hot(scenes.classes, classes_.classes()).to(torch::kFloat) - 1.0;
+  const torch::Tensor one_hot = OneHot(scenes.classes);
   batch.class_noise = NormalLike(one_hot, generator);
   batch.noisy.classes = poses_.AddNoise(one_hot, batch.class_noise, batch.noisy.time);
   return batch;
+}
+
+torch::Tensor SceneDiffusion::OneHot(const torch::Tensor& classes) const {
+  return 2.0 * torch::one_hot(classes, classes_.classes()).to(torch::kFloat) - 1.0;
+}
+
+NoisyScenes SceneDiffusion::WithoutNoise(const CleanScenes& scenes) const {
+  NoisyScenes clean;
+  clean.poses = scenes.poses;
+  clean.classes = continuous_ ? OneHot(scenes.classes) : scenes.classes;
+  return clean;
+}
+
+NoisyScenes SceneDiffusion::NoisyAt(const CleanScenes& scenes, int t,
+                                    const at::Generator& generator) const {
+  NoisyScenes noisy = WithoutNoise(scenes);
+  noisy.time = torch::full({scenes.poses.size(0)}, t, scenes.classes.options());
+  const auto add_noise = [&](const torch::Tensor& clean) {
+    return poses_.AddNoise(clean, NormalLike(clean, generator), noisy.time);
+  };
+  noisy.poses = add_noise(noisy.poses);
+  noisy.classes = continuous_ ? add_noise(noisy.classes)
+                              : classes_.AddNoise(scenes.classes, noisy.time, generator);
+  return noisy;
 }
 
 SceneLoss SceneDiffusion::Loss(Denoiser* denoiser, const DenoisingBatch& scenes) const {
@@ -135,28 +159,38 @@ NoisyScenes SceneDiffusion::Noise(int count, int entries, const at::Generator& g
 }
 
 void SceneDiffusion::Step(Denoiser* denoiser, int t, int previous, double eta,
-                          const Guidance& guidance, const at::Generator& generator,
+                          const StepOptions& options, const at::Generator& generator,
                           NoisyScenes* scenes) const {
   scenes->time =
       torch::full({scenes->poses.size(0)}, t, scenes->classes.options().dtype(torch::kLong));
-  const Denoised guess = PredictGuided(denoiser, *scenes, guidance);
-  const auto advance = [&](const torch::Tensor& noisy, const torch::Tensor& noise) {
-    const torch::Tensor clean = poses_.CleanFrom(noisy, noise, scenes->time).clamp(-1.0, 1.0);
-    return poses_.StochasticStep(noisy, clean, t, previous, eta, NormalLike(noisy, generator));
+  const Denoised guess = PredictGuided(denoiser, *scenes, options.guidance);
+  const auto advance = [&](const torch::Tensor& noisy, const torch::Tensor& noise,
+                           const torch::Tensor& absent) {
+    torch::Tensor clean = poses_.CleanFrom(noisy, noise, scenes->time).clamp(-1.0, 1.0);
+    if (absent.defined()) clean = clean.masked_fill(absent, -1.0);
+    return poses_.StochasticStep(noisy, clean, t, previous, options.eta,
+                                 NormalLike(noisy, generator));
   };
-  scenes->poses = advance(scenes->poses, guess.pose_noise);
+  scenes->poses = advance(scenes->poses, guess.pose_noise, {});
   if (continuous_) {
-    scenes->classes = advance(scenes->classes, guess.classes);
+    scenes->classes = advance(scenes->classes, guess.classes, options.forbidden);
     return;
   }
+  const torch::Tensor logits = options.forbidden.defined()
+                                   ? guess.classes.masked_fill(options.forbidden, kNoLogit)
+                                   : guess.classes;
   const torch::Tensor posterior =
-      classes_.Posterior(scenes->classes, torch::softmax(guess.classes, -1), scenes->time,
+      classes_.Posterior(scenes->classes, torch::softmax(logits, -1), scenes->time,
                          torch::full_like(scenes->time, previous));
   scenes->classes = CategoryDiffusion::Draw(posterior, generator);
 }
 
-CleanScenes SceneDiffusion::Clean(const NoisyScenes& scenes) const {
-  if (continuous_) return {scenes.poses, scenes.classes.argmax(-1)};
+CleanScenes SceneDiffusion::Clean(const NoisyScenes& scenes, const torch::Tensor& forbidden) const {
+  if (continuous_) {
+    const torch::Tensor allowed =
+        forbidden.defined() ? scenes.classes.masked_fill(forbidden, kNoLogit) : scenes.classes;
+    return {scenes.poses, allowed.argmax(-1)};
+  }
   return {scenes.poses, scenes.classes.clamp_max(classes_.classes() - 1)};
 }
 

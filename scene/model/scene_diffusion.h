@@ -39,6 +39,13 @@ struct DenoisingBatch {
   DenoisingBatch SortedByPromptLength() const;
 };
 
+// Options of a denoising step.
+struct StepOptions {
+  double eta = 1.0;  // share of the posterior's noise that poses receive
+  Guidance guidance;
+  torch::Tensor forbidden;  // (B x N x K, bool): classes that no clean scene has; undefined: none
+};
+
 // Mixed diffusion of scenes (Pfaff et al., after Hu et al. 2024): poses by DDPM (linear betas 1e-4
 // to 0.02, noise prediction, x_0 clipped to [-1, 1]), classes by mask and replace. In a continuous
 // model both by DDPM, with classes as one-hot vectors from -1 to 1.
@@ -58,15 +65,21 @@ class SceneDiffusion {
 
   // Returns pure noise for `count` scenes of `entries` tokens.
   NoisyScenes Noise(int count, int entries, const at::Generator& generator) const;
+  // Return a sample of q(x_t | x_0) for all scenes at one t, and the scenes without noise.
+  NoisyScenes NoisyAt(const CleanScenes& scenes, int t, const at::Generator& generator) const;
+  NoisyScenes WithoutNoise(const CleanScenes& scenes) const;
   // Performs one denoising step from t to `previous` < t (-1: clean); poses receive `eta` times the
-  // noise of the posterior.
-  void Step(Denoiser* denoiser, int t, int previous, double eta, const Guidance& guidance,
+  // Performs one denoising step from t to `previous` < t (-1: clean).
+  void Step(Denoiser* denoiser, int t, int previous, const StepOptions& options,
             const at::Generator& generator, NoisyScenes* scenes) const;
-  // Returns the clean scenes at the end of sampling. A continuous class is the argmax.
-  CleanScenes Clean(const NoisyScenes& scenes) const;
+  // Returns the clean scenes at the end of sampling. A continuous class is the argmax of those
+  // that are not `forbidden`.
+  CleanScenes Clean(const NoisyScenes& scenes, const torch::Tensor& forbidden = {}) const;
 
  private:
   SceneLoss MixedLoss(const Denoised& guess, const DenoisingBatch& scenes) const;
+  // Returns classes (B x N) as continuous ones, (B x N x K) of -1 and 1.
+  torch::Tensor OneHot(const torch::Tensor& classes) const;
 
   bool continuous_;
   double class_weight_, time_power_;

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "nn/compute.h"
+#include "scene/model/inpainting.h"
 #include "scene/model/prompt_encoder.h"
 #include "scene/model/scene_diffusion.h"
 #include "scene/model/token_tensors.h"
@@ -124,40 +125,59 @@ void SceneModel::AddAsset(const std::string& category,
 
 std::vector<float> SceneModel::Sample(int count, const SampleOptions& options,
                                       core::Progress* progress) const {
+  if (count < 0) throw core::Error("cannot sample this number of scenes", std::to_string(count));
+  const Vocabulary& vocabulary = network_->metadata.vocabulary;
+  const auto width = static_cast<size_t>(vocabulary.TokenWidth());
+  InpaintingMask mask = InpaintingMask::All(count, vocabulary.entries);
+  std::vector<float> padding(mask.pose.size() * width, 0.0f);
+  for (size_t i = width; i <= padding.size(); i += width) padding[i - 1] = 1.0f;  // empty: the last
+  return Inpaint(padding, mask, options, progress);
+}
+
+std::vector<float> SceneModel::Inpaint(const std::vector<float>& given, const InpaintingMask& mask,
+                                       const SampleOptions& options,
+                                       core::Progress* progress) const {
+  const SceneModelMetadata& metadata = network_->metadata;
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("sampling: " + error);
-  if (count < 0) throw core::Error("cannot sample this number of scenes", std::to_string(count));
-  const SceneModelMetadata& metadata = network_->metadata;
+  if (!mask.IsValid(given, metadata.vocabulary, &error)) throw core::Error("inpainting: " + error);
   if (!options.prompts.empty() && !metadata.options.text) {
     throw core::Error("the model reads no prompts", "", "train one with --text");
   }
   nn::PrepareForWork();
   const torch::NoGradGuard no_gradient;
-  Guidance guidance;
+  StepOptions step;
+  step.eta = options.eta;
   if (!options.prompts.empty() && options.guidance > 0.0) {
-    guidance = {options.guidance, network_->Encode({""})};
+    step.guidance = {options.guidance, network_->Encode({""})};
   }
   const SceneDiffusion diffusion(metadata.options, metadata.vocabulary.ClassCount());
   std::vector<int> times =
       diffusion.Times(options.steps == 0 ? metadata.options.diffusion_steps : options.steps);
   times.push_back(-1);
+  const int count = static_cast<int>(mask.pose.size()) / metadata.vocabulary.entries;
   std::vector<float> tokens;
   for (int first = 0; first < count; first += options.batch) {
     const int some = std::min(options.batch, count - first);
     // Each batch samples from its own stream: sampling more scenes does not change the first ones.
     core::Rng rng = core::StreamRng(options.seed, static_cast<std::uint64_t>(first));
     const at::Generator generator = at::detail::createCPUGenerator(rng());
+    const at::Generator clamp_generator = at::detail::createCPUGenerator(rng());
+    const KeptTokens kept(given, mask, first, some, metadata.vocabulary, metadata.range,
+                          network_->device);
     NoisyScenes scenes = diffusion.Noise(some, metadata.vocabulary.entries, generator);
     scenes.poses = scenes.poses.to(network_->device);
     scenes.classes = scenes.classes.to(network_->device);
     if (metadata.options.text) scenes.text = network_->EncodePrompts(options, first, some);
+    step.forbidden = kept.forbidden();
     for (size_t i = 0; i + 1 < times.size(); ++i) {
       core::CheckCancelled();
-      diffusion.Step(network_->denoiser.get(), times[i], times[i + 1], options.eta, guidance,
-                     generator, &scenes);
+      kept.Clamp(diffusion, options.clamping, times[i], clamp_generator, &scenes);
+      diffusion.Step(network_->denoiser.get(), times[i], times[i + 1], step, generator, &scenes);
     }
-    const std::vector<float> part =
-        TokensOf(diffusion.Clean(scenes), metadata.vocabulary, metadata.range);
+    std::vector<float> part =
+        TokensOf(diffusion.Clean(scenes, kept.forbidden()), metadata.vocabulary, metadata.range);
+    kept.Restore(&part);
     tokens.insert(tokens.end(), part.begin(), part.end());
     for (int i = 0; i < some; ++i) progress->Advance();
   }

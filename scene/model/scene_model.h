@@ -12,6 +12,7 @@
 #include "scene/dataset/pose_range.h"
 #include "scene/dataset/vocabulary.h"
 #include "scene/grammar/scene_sample.h"
+#include "scene/model/inpainting_mask.h"
 #include "scene/model/model_options.h"
 
 namespace simwright::scene {
@@ -27,6 +28,7 @@ struct SampleOptions {
   std::vector<std::string> prompts;
   // The weight w of classifier-free guidance, (1 + w) prompted - w unprompted; 0: none.
   double guidance = 0.0;
+  Clamping clamping = Clamping::kCleanValues;  // of Inpaint; docs/scenes.md compares
 
   bool IsValid(std::string* error) const;
 };
@@ -71,6 +73,14 @@ class SceneModel {
   // none.
   std::vector<float> Sample(int count, const SampleOptions& options,
                             core::Progress* progress) const;
+
+  // Synthesizes the masked values of scenes, given the others. `tokens`: (count x entries x
+  // TokenWidth), in any order of the entries. Returns tokens as Sample does, in which the kept
+  // values equal the input's bit by bit; with everything masked, it returns what Sample returns.
+  // Advances `progress` by one per scene. Throws core::Error for invalid options, or a mask or
+  // tokens that are not valid (InpaintingMask::IsValid).
+  std::vector<float> Inpaint(const std::vector<float>& tokens, const InpaintingMask& mask,
+                             const SampleOptions& options, core::Progress* progress) const;
 
  private:
   struct Network;

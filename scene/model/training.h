@@ -30,8 +30,8 @@ struct SceneTrainingOptions {
   bool bfloat16_on_gpu = true;  // for matrix products; as in the paper
   std::uint64_t seed = 1;
   AssetShapes shapes;  // of the dataset's categories, for a model with classes by shape
-  // Options of a model that reads prompts: the share of scenes that train without one, the most word
-  // pieces of its own encoder, the external encoder's file if it has one, and the sizes of the
+  // Options of a model that reads prompts: the share of scenes that train without one, the most
+  // word pieces of its own encoder, the external encoder's file if it has one, and the sizes of the
   // categories, by which relations are recognised.
   double prompt_dropout = 0.1;
   int text_pieces = 512;

@@ -338,7 +338,7 @@ TEST(SceneDiffusion, WithTheBestDenoiserItDrawsTheDataEvenly) {
     EXPECT_EQ(times.front(), 199);
     times.push_back(-1);
     for (size_t i = 0; i + 1 < times.size(); ++i) {
-      diffusion.Step(&best, times[i], times[i + 1], eta, generator, &scenes);
+      diffusion.Step(&best, times[i], times[i + 1], {eta, {}, {}}, generator, &scenes);
     }
     const CleanScenes drawn = diffusion.Clean(scenes);
     std::vector<int> counts(4, 0);

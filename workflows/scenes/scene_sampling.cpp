@@ -22,11 +22,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The distance that objects are lowered, m: about one shelf spacing, so that an object between two
-// boards comes down on the lower one; less than a table's height, so that an object beside it
-// falls.
-constexpr double kLowering = 0.25;
-
 double SamplingSeconds(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -52,7 +47,7 @@ Sampled AsSampled(std::vector<scene::SceneObject> objects) {
 
 Sampled Settled(const std::vector<scene::SceneObject>& objects, const scene::AssetSet& asset_set) {
   scene::FeasibilityOptions options;
-  options.lowering = kLowering;
+  options.lowering = kSampleLowering;
   scene::FeasibleScene feasible = MakeFeasible(objects, asset_set, options);
   Sampled sampled;
   sampled.attempt = AttemptOf(feasible, static_cast<int>(objects.size()));
@@ -111,7 +106,7 @@ scene::ShardOrigin OriginOf(const SceneSamplingRequest& request, const fs::path&
     settings["guidance"] = request.sampling.guidance;
     settings["prompts"] = request.sampling.prompts;
   }
-  if (!request.raw) settings["lowering"] = kLowering;
+  if (!request.raw) settings["lowering"] = kSampleLowering;
   return {request.sampling.seed, 0, "{}", core::JsonLine(settings), SIMWRIGHT_VERSION};
 }
 

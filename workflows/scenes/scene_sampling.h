@@ -11,6 +11,11 @@
 
 namespace simwright::workflows {
 
+// The distance by which sampled objects are lowered, m: about one shelf spacing, so that an object
+// between two boards comes down on the lower one; less than a table's height, so that an object
+// beside it falls.
+inline constexpr double kSampleLowering = 0.25;
+
 struct SceneSamplingRequest {
   std::filesystem::path weights;
   std::string type;  // the scene type of the shipped weights, if `weights` is empty
