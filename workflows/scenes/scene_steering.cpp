@@ -72,13 +72,16 @@ class SceneSteering {
         source_(ReadSceneSource(request.scene, request.scenes, request.assets)),
         weights_(SteeringWeights(request, source_)),
         model_(LoadModel()),
+        goal_(request.goal),
         source_assets_(&vocabulary()) {
     report_.output = request.output;
     report_.rearrange = request.goal.rearrange;
     options_.feasibility.lowering = kSampleLowering;
+    if (!request.prompt.empty()) {
+      SetGoalFromPrompt(request.prompt, vocabulary(), &goal_, &report_.findings);
+    }
     for (const SourceScene& one : source_.scenes) {
-      scenes_.emplace_back(one, request.goal, model_.metadata(), &source_assets_,
-                           &report_.findings);
+      scenes_.emplace_back(one, goal_, model_.metadata(), &source_assets_, &report_.findings);
     }
     reports_.resize(scenes_.size());
   }
@@ -91,7 +94,7 @@ class SceneSteering {
       const std::vector<std::vector<Proposal>> proposals = Propose(round);
       GatherAssets(staged.staging() / "assets");
       TakeBest(Unfinished(), proposals);
-      if (request_.goal.count < 0 && !request_.goal.rearrange) break;  // the model's choice
+      if (goal_.count < 0 && !goal_.rearrange) break;  // the model's choice
     }
     if (request_.goal.rearrange) ReturnMissing();
     FinishReports();
@@ -106,7 +109,7 @@ class SceneSteering {
 
   scene::SceneModel LoadModel() {
     const StepTimer timer(&report_.model_seconds);
-    return scene::SceneModel::Load(weights_);
+    return scene::SceneModel::Load(weights_, request_.text_encoder);
   }
 
   std::vector<size_t> Unfinished() const {
@@ -124,10 +127,14 @@ class SceneSteering {
     const std::vector<size_t> open = Unfinished();
     std::vector<float> tokens;
     scene::InpaintingMask mask;
-    for (const size_t i : open) {
-      for (int c = 0; c < request_.candidates; ++c) scenes_[i].AppendProposal(&tokens, &mask);
-    }
     scene::SampleOptions sampling = request_.sampling;
+    const bool prompted = model_.metadata().options.text && !goal_.names.empty();
+    for (const size_t i : open) {
+      for (int c = 0; c < request_.candidates; ++c) {
+        scenes_[i].AppendProposal(&tokens, &mask);
+        if (prompted) sampling.prompts.push_back(scenes_[i].PromptText());
+      }
+    }
     sampling.seed = core::StreamRng(request_.sampling.seed, static_cast<std::uint64_t>(round))();
     progress_->Stage("sampling", static_cast<int>(open.size()) * request_.candidates);
     const std::vector<float> sampled = model_.Inpaint(tokens, mask, sampling, progress_);
@@ -287,6 +294,7 @@ class SceneSteering {
   SceneSource source_;
   fs::path weights_;
   scene::SceneModel model_;
+  SteeringGoal goal_;
   SourceAssets source_assets_;
   scene::ConstrainedOptions options_;
   std::vector<SteeredScene> scenes_;

@@ -17,6 +17,8 @@ struct SceneSteeringRequest {
   std::filesystem::path weights;  // a model; empty: the shipped one of `type`
   std::string type;               // empty: the type that the source records
   SteeringGoal goal;
+  std::string prompt;  // of a completion: what to add, instead of goal.count and goal.names
+  std::filesystem::path text_encoder;  // of a model that was trained with an external one
   // Rounds of proposals, and proposals per round and scene, of which the best is taken. Objects
   // that find no place in one round are proposed again in the next.
   int attempts = 6, candidates = 2;

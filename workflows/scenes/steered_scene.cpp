@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "scene/dataset/tokens.h"
+#include "scene/prompt/object_names.h"
 
 namespace simwright::workflows {
 namespace {
@@ -67,7 +68,11 @@ std::string ListOfNames(const std::vector<std::string>& names) {
 SteeredScene::SteeredScene(const SourceScene& source, const SteeringGoal& goal,
                            const scene::SceneModelMetadata& metadata, SourceAssets* assets,
                            core::Findings* findings)
-    : name_(source.name), metadata_(metadata), rearrange_(goal.rearrange), count_(goal.count) {
+    : name_(source.name),
+      metadata_(metadata),
+      rearrange_(goal.rearrange),
+      names_(goal.names),
+      count_(goal.count) {
   const int entries = metadata.vocabulary.entries;
   if (source.objects.size() > static_cast<size_t>(entries)) {
     throw core::Error("the scene has " + std::to_string(source.objects.size()) +
@@ -179,6 +184,31 @@ int SteeredScene::NewEntries() const {
   return count_ < 0 ? room : std::min(room, Missing());
 }
 
+std::vector<std::string> SteeredScene::NamesToAdd() const {
+  std::vector<std::string> names;
+  for (const scene::NamedCount& one : names_) {
+    const auto added = std::count_if(objects_.begin(), objects_.end(), [&](const auto& object) {
+      return object.added && scene::NameOfCategory(object.object.category) == one.name;
+    });
+    for (auto i = added; i < one.count; ++i) names.push_back(one.name);
+  }
+  return names;
+}
+
+std::string SteeredScene::PromptText() const {
+  if (names_.empty()) return "";
+  std::map<std::string, int> counts;
+  for (const size_t i : Seen()) {
+    const scene::SceneObject& object = objects_[i].object;
+    if (!object.welded) ++counts[scene::NameOfCategory(object.category)];
+  }
+  for (const std::string& name : NamesToAdd()) ++counts[name];
+  scene::Prompt prompt;
+  prompt.kind = scene::PromptKind::kNames;
+  for (const auto& [name, count] : counts) prompt.names.push_back({name, count});
+  return prompt.Text();
+}
+
 void SteeredScene::AppendProposal(std::vector<float>* tokens, scene::InpaintingMask* mask) const {
   const scene::Vocabulary& vocabulary = metadata_.vocabulary;
   std::vector<scene::SceneObject> seen;
@@ -198,10 +228,14 @@ void SteeredScene::AppendProposal(std::vector<float>* tokens, scene::InpaintingM
     mask->pose[static_cast<size_t>(entry++)] = !objects_[i].placed;
   }
   const int last = entry + NewEntries();
-  for (; entry < last; ++entry) {
+  const std::vector<std::string> names = NamesToAdd();
+  for (size_t k = 0; entry < last; ++entry, ++k) {
     mask->pose[static_cast<size_t>(entry)] = mask->classes[static_cast<size_t>(entry)] = 1;
     for (int c = 0; c < vocabulary.EmptyClass(); ++c) {
-      if (vocabulary.welded[static_cast<size_t>(c)]) mask->Forbid(vocabulary, entry, c);
+      const auto at = static_cast<size_t>(c);
+      const bool named =
+          names.empty() || scene::NameOfCategory(vocabulary.categories[at]) == names[k];
+      if (vocabulary.welded[at] || !named) mask->Forbid(vocabulary, entry, c);
     }
     if (count_ >= 0) mask->Forbid(vocabulary, entry, vocabulary.EmptyClass());
   }
@@ -246,12 +280,21 @@ Proposal SteeredScene::AtOldPoses() const {
 Proposal SteeredScene::StillMissing(const Proposal& proposal, const scene::ConstrainedScene& placed,
                                     size_t there) const {
   Proposal missing;
+  std::vector<std::string> names = NamesToAdd();
+  // Takes one object of the name; returns false if there is none left to add.
+  const auto take = [&](const std::string& category) {
+    if (names_.empty()) return static_cast<int>(missing.size()) < Missing();
+    const auto found = std::find(names.begin(), names.end(), scene::NameOfCategory(category));
+    if (found == names.end()) return false;
+    names.erase(found);
+    return true;
+  };
   for (size_t i = 0; i < placed.indices.size(); ++i) {
     const auto index = static_cast<size_t>(placed.indices[i]);
     if (index < there) continue;
     const int slot = proposal[index - there].slot;
-    const bool open = slot >= 0 ? !objects_[static_cast<size_t>(slot)].placed
-                                : static_cast<int>(missing.size()) < Missing();
+    const bool open =
+        slot >= 0 ? !objects_[static_cast<size_t>(slot)].placed : take(placed.objects[i].category);
     if (open) missing.push_back({placed.objects[i], slot});
   }
   return missing;

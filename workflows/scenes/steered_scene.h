@@ -8,16 +8,9 @@
 #include "scene/model/scene_model.h"
 #include "workflows/scenes/scene_source.h"
 #include "workflows/scenes/source_assets.h"
+#include "workflows/scenes/steering_goal.h"
 
 namespace simwright::workflows {
-
-// The goal of a steered scene: completion adds objects to those there, rearrangement finds new
-// poses for those that are not kept.
-struct SteeringGoal {
-  bool rearrange = false;
-  int count = -1;  // completion: the number of objects to add; -1: the model's choice
-  std::vector<std::string> keep;  // rearrangement: the names of the objects that stay
-};
 
 struct SteeredObject {
   std::string name;
@@ -56,6 +49,10 @@ class SteeredScene {
   int Missing() const;
   std::vector<std::string> MissingNames() const;  // of rearranged objects
 
+  // Returns the prompt of the scene with everything that is asked for, for a model that reads
+  // prompts; empty if the goal has no names.
+  std::string PromptText() const;
+
   // Appends one proposal's input for SceneModel::Inpaint.
   void AppendProposal(std::vector<float>* tokens, scene::InpaintingMask* mask) const;
   // Returns the objects that a sampled proposal holds for the missing ones. Throws core::Error if a
@@ -90,12 +87,15 @@ class SteeredScene {
   std::vector<size_t> Placed() const;   // as in After
   std::vector<size_t> Waiting() const;  // rearranged objects without a new pose
   int NewEntries() const;               // tokens of objects to add
+  // Returns the names of the objects that are still to add, one each; empty if any name will do.
+  std::vector<std::string> NamesToAdd() const;
 
   std::string name_;
   const scene::SceneModelMetadata& metadata_;
   std::vector<SteeredObject> objects_;
   std::vector<scene::SceneObject> before_;
   bool rearrange_;
+  std::vector<scene::NamedCount> names_;  // to add
   int count_, asked_ = 0, added_ = 0;
   bool stable_ = false;
   double kept_displacement_ = 0.0, drift_ = 0.0, penetration_ = 0.0;
