@@ -63,6 +63,10 @@ int TrainSceneModel(TrainFlags flags, const CommonOptions& common) {
     flags.options.shapes = workflows::ShapesOfDataset(flags.dataset, flags.assets,
                                                       dataset.vocabulary(), model.shape_points);
   }
+  if (model.text) {
+    flags.options.sizes =
+        workflows::SizesOfDataset(flags.dataset, flags.assets, dataset.vocabulary());
+  }
   std::optional<core::FolderLock> lock;
   if (std::filesystem::exists(flags.output)) lock.emplace(flags.output, "a training");
   core::Progress progress(common.ProgressStyle());
@@ -122,13 +126,13 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_option("--method", flags->method, "ours, continuous, midiffusion or diffuscene")
       ->capture_default_str()
       ->check(CLI::IsMember({"ours", "continuous", "midiffusion", "diffuscene"}));
-  CLI::Option* const by_shape = command->add_flag(
+  command->add_flag(
       "--by-shape", flags->by_shape,
       "Embed categories by their assets' shapes, so that `sample --add` can add new ones");
   command
       ->add_option("--assets", flags->assets,
-                   "With --by-shape: the folder of the categories' assets, if not the dataset's")
-      ->needs(by_shape);
+                   "With --by-shape or --text: the folder of the categories' assets")
+      ->default_str("the dataset's");
   command->add_flag("--text", flags->text,
                     "Read prompts, drawn from the scenes, by a text encoder trained along");
   command->add_option("--text-encoder", options.text_encoder,

@@ -81,7 +81,7 @@ void AddSceneComplete(CLI::App* scene, CommonOptions* common, Run* run) {
       "  simwright scene complete out/pantry --prompt \"two apples and a can\" -o out/completed\n"
       "  simwright scene complete poses.json --type dimsum --count 2 -o out/completed\n"
       "Objects of the scene keep their poses, and none moves by more than 1 mm once everything is\n"
-      "free. The exit code is 1 if the result is not stable. See docs/scenes.md.");
+      "free. The exit code is 1 if the result is not stable. See docs/steering.md.");
   CLI::Option* const count =
       command->add_option("--count", request->goal.count, "The number of objects to add")
           ->default_str("the model's choice")
@@ -102,7 +102,7 @@ void AddSceneRearrange(CLI::App* scene, CommonOptions* common, Run* run) {
       "Examples:\n  simwright scene rearrange out/dimsum --scene 3 -o out/rearranged\n"
       "  simwright scene rearrange out/worlds/scene_00003 --keep teapot_0,cup_1 -o out/rearranged\n"
       "Furniture stays. The exit code is 1 if the result is not stable, or an object finds no\n"
-      "place. See docs/scenes.md.");
+      "place. See docs/steering.md.");
   command
       ->add_option("--keep", request->goal.keep,
                    "The objects that stay, by name and separated by commas")

@@ -28,7 +28,7 @@ struct SampleOptions {
   std::vector<std::string> prompts;
   // The weight w of classifier-free guidance, (1 + w) prompted - w unprompted; 0: none.
   double guidance = 0.0;
-  Clamping clamping = Clamping::kCleanValues;  // of Inpaint; docs/scenes.md compares
+  Clamping clamping = Clamping::kCleanValues;  // of Inpaint; docs/steering.md compares
 
   bool IsValid(std::string* error) const;
 };

@@ -131,7 +131,10 @@ std::pair<PromptItem, size_t> ItemAt(const std::vector<PromptWord>& words, size_
   if (phrase != nullptr) return {*phrase, phrase_words};
   if (!IsFillerWord(words[at].text)) {
     const std::optional<NameMatch> related = lookup.Related(words, at);
-    if (related) return named(*related);
+    // A noun before a name says which one: a fruit bowl is a bowl, no fruit.
+    const bool modifies = related && !related->plural && at + related->words < words.size() &&
+                          lookup.Exact(words, at + related->words);
+    if (related && !modifies) return named(*related);
     item.kind = Kind::kUnknown;
   }
   return {item, 1};

@@ -158,6 +158,7 @@ TEST(ReadPrompt, Synonyms) {
   if (WordNet::Installed() == nullptr) GTEST_SKIP() << "wordnet-base is not installed";
   EXPECT_EQ(Canonical("two soda cans"), "A scene with two cans.");
   EXPECT_EQ(Canonical("a soup bowl"), "A scene with a bowl.");
+  EXPECT_EQ(Canonical("a fruit bowl"), "A scene with a bowl.");  // no fruit
   EXPECT_EQ(Canonical("three coffee mugs"), "A scene with three mugs.");
   EXPECT_EQ(Canonical("a red apple"), "A scene with an apple.");
   EXPECT_EQ(Canonical("a bottle"), "A scene with a tea bottle.");

@@ -84,14 +84,15 @@ int TrainingScenes(const SceneEvaluationRequest& request, const scene::SceneData
 
 // Returns the prompts of held-out scenes `first` and following, stored or, for older datasets,
 // drawn now.
-std::vector<std::string> HeldOutPrompts(const scene::SceneDataset& data, int first, int count) {
+std::vector<std::string> HeldOutPrompts(const scene::SceneDataset& data, int first, int count,
+                                        const scene::CategorySizes& sizes) {
   if (count < 1) {
     throw core::Error("prompts come from held-out scenes, and there are none", "",
                       "hold scenes out, or leave --prompts out");
   }
   std::vector<std::string> prompts = data.ReadPrompts(first, count);
   if (!prompts.empty()) return prompts;
-  const scene::PromptDrawing drawing(data.vocabulary(), scene::DefaultCategorySizes());
+  const scene::PromptDrawing drawing(data.vocabulary(), sizes);
   const std::vector<float> tokens = data.Read(first, count);
   const size_t size = tokens.size() / static_cast<size_t>(count);
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
@@ -150,11 +151,15 @@ SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path&
           : Generated(request, type, metadata ? metadata->data_seed : 0, folder, progress);
   const scene::SceneDataset data(data_folder);
   const std::vector<fs::path> assets = AssetFolders(request, data_folder);
+  sets.asset_set = scene::ReadAssetSet(
+      GatherSceneAssets({sets.vocabulary.categories, {}, assets, folder / "assets"}, progress));
   const int training = TrainingScenes(request, data, metadata, findings);
   const int held_out = std::min(request.count, data.SceneCount() - training);
   if (!samples) {
     std::vector<std::string> prompts;
-    if (request.prompted) prompts = HeldOutPrompts(data, training, held_out);
+    if (request.prompted) {
+      prompts = HeldOutPrompts(data, training, held_out, sets.asset_set.Sizes());
+    }
     Sample(request, weights, assets, prompts, folder / "samples", progress);
     samples.emplace(folder / "samples");
   } else {
@@ -164,8 +169,6 @@ SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path&
     throw core::Error("data, samples and model have different scene types or categories",
                       data_folder.string());
   }
-  sets.asset_set = scene::ReadAssetSet(
-      GatherSceneAssets({sets.vocabulary.categories, {}, assets, folder / "assets"}, progress));
   sets.samples = Decoded(*samples, 0, std::min(request.count, samples->SceneCount()));
   sets.training = Decoded(data, 0, training);
   sets.held_out = Decoded(data, training, held_out);

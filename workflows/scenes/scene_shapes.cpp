@@ -21,4 +21,16 @@ scene::AssetShapes ShapesOfDataset(const std::filesystem::path& path,
   return shapes;
 }
 
+scene::CategorySizes SizesOfDataset(const std::filesystem::path& path,
+                                    const std::filesystem::path& assets,
+                                    const scene::Vocabulary& vocabulary) {
+  const bool is_file = std::filesystem::is_regular_file(path);
+  const std::filesystem::path beside = (is_file ? path.parent_path() : path) / "assets";
+  const std::filesystem::path& folder = assets.empty() ? beside : assets;
+  if (!std::filesystem::is_directory(folder)) return scene::DefaultCategorySizes();
+  const scene::CategoryFolders folders = scene::FoldersForCategories(folder, vocabulary.categories);
+  if (folders.empty()) return scene::DefaultCategorySizes();
+  return scene::ReadAssetSet(folders).Sizes();
+}
+
 }  // namespace simwright::workflows

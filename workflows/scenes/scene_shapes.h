@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "scene/grammar/category_size.h"
 #include "scene/model/asset_shapes.h"
 
 namespace simwright::workflows {
@@ -17,5 +18,12 @@ std::vector<Eigen::Vector3d> ShapeOfAsset(const std::filesystem::path& folder, i
 scene::AssetShapes ShapesOfDataset(const std::filesystem::path& path,
                                    const std::filesystem::path& assets,
                                    const scene::Vocabulary& vocabulary, int points);
+
+// Returns the sizes of the assets of the dataset at `path`: of `assets` or, if that is empty, of
+// the folder "assets" beside the shards; default sizes for categories without an asset there, and
+// if there is no such folder.
+scene::CategorySizes SizesOfDataset(const std::filesystem::path& path,
+                                    const std::filesystem::path& assets,
+                                    const scene::Vocabulary& vocabulary);
 
 }  // namespace simwright::workflows
