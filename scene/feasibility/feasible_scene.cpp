@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "scene/feasibility/asked_relations.h"
 #include "scene/feasibility/lowering.h"
 #include "scene/feasibility/narrow_phase.h"
 
@@ -30,10 +31,16 @@ void Shift(const std::vector<Vector3d>& shifts, std::vector<SceneObject>* object
   }
 }
 
-// Resolves the penetrations of the objects; returns true on success.
-bool Depenetrate(const AssetSet& asset_set, const DepenetrationOptions& options,
+// Resolves the penetrations of the objects and keeps the relations of the prompt where it can;
+// returns true if no penetration remains.
+bool Depenetrate(const AssetSet& asset_set, const FeasibilityOptions& options,
                  std::vector<SceneObject>* objects) {
-  const Projection projection = ResolvePenetrations(SceneBodies(*objects, asset_set), options);
+  std::vector<KeptRelation> relations;
+  if (!options.prompt.relations.empty()) {
+    relations = AskedRelations(options.prompt, *objects, asset_set.Sizes());
+  }
+  const Projection projection =
+      ResolvePenetrations(SceneBodies(*objects, asset_set), options.projection, relations);
   Shift(projection.shifts, objects);
   return projection.feasible;
 }
@@ -41,10 +48,10 @@ bool Depenetrate(const AssetSet& asset_set, const DepenetrationOptions& options,
 // Arranges the objects for settling; returns true if no penetration remains.
 bool Arrange(const AssetSet& asset_set, const FeasibilityOptions& options,
              std::vector<SceneObject>* objects) {
-  const bool apart = Depenetrate(asset_set, options.projection, objects);
+  const bool apart = Depenetrate(asset_set, options, objects);
   if (options.lowering == 0.0) return apart;
   Shift(LowerOntoSupports(SceneBodies(*objects, asset_set), options.lowering), objects);
-  return Depenetrate(asset_set, options.projection, objects);  // for bodies that slid past walls
+  return Depenetrate(asset_set, options, objects);  // for bodies that slid past walls
 }
 
 std::vector<sim::SettledBody> SettleObjects(const std::vector<SceneObject>& objects,
@@ -187,7 +194,7 @@ FeasibleScene MakeFeasible(const std::vector<SceneObject>& objects, const AssetS
       // again has no room.
       if (pass > 0)
         scene.dropped += DropWedged(asset_set, options.penetration, &scene.objects, &scene.indices);
-      Depenetrate(asset_set, options.projection, &scene.objects);
+      Depenetrate(asset_set, options, &scene.objects);
     }
     // The objects near a dropped or moving one have not been checked without it.
     scene.drift = HUGE_VAL;

@@ -7,6 +7,7 @@
 #include "scene/asset_set/asset_set.h"
 #include "scene/feasibility/depenetration.h"
 #include "scene/grammar/scene_sample.h"
+#include "scene/prompt/prompt.h"
 #include "sim/settling.h"
 
 namespace simwright::scene {
@@ -34,6 +35,8 @@ struct FeasibilityOptions {
   // objects that still move after the first pass come to rest in the second.
   int passes = 6;
   int min_objects = 3;  // fewest free objects of a scene (Pfaff et al., appendix)
+  // The projection keeps the relations of this prompt (AskedRelations) where it can.
+  Prompt prompt;
 
   bool IsValid(std::string* error) const;
 };

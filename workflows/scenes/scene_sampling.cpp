@@ -45,8 +45,10 @@ Sampled AsSampled(std::vector<scene::SceneObject> objects) {
   return sampled;
 }
 
-Sampled Settled(const std::vector<scene::SceneObject>& objects, const scene::AssetSet& asset_set) {
+Sampled Settled(const std::vector<scene::SceneObject>& objects, const scene::AssetSet& asset_set,
+                const scene::Prompt& prompt) {
   scene::FeasibilityOptions options;
+  options.prompt = prompt;
   options.lowering = kSampleLowering;
   scene::FeasibleScene feasible = MakeFeasible(objects, asset_set, options);
   Sampled sampled;
@@ -57,7 +59,8 @@ Sampled Settled(const std::vector<scene::SceneObject>& objects, const scene::Ass
 
 std::vector<Sampled> FinishScenes(const std::vector<float>& tokens,
                                   const scene::Vocabulary& vocabulary,
-                                  const scene::AssetSet& asset_set, bool raw,
+                                  const scene::AssetSet& asset_set,
+                                  const std::vector<scene::Prompt>& prompts, bool raw,
                                   core::Progress* progress) {
   const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
   std::vector<Sampled> scenes(tokens.size() / size);
@@ -66,7 +69,9 @@ std::vector<Sampled> FinishScenes(const std::vector<float>& tokens,
     core::CheckCancelled();
     const auto index = static_cast<size_t>(i);
     std::vector<scene::SceneObject> objects = DecodeScene(&tokens[index * size], vocabulary);
-    scenes[index] = raw ? AsSampled(std::move(objects)) : Settled(objects, asset_set);
+    const scene::Prompt prompt =
+        prompts.empty() ? scene::Prompt() : prompts[index % prompts.size()];
+    scenes[index] = raw ? AsSampled(std::move(objects)) : Settled(objects, asset_set, prompt);
     progress->Advance();
   });
   return scenes;
@@ -148,7 +153,7 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
   report.sampling_seconds = SamplingSeconds(start);
   start = Clock::now();
   const std::vector<Sampled> scenes =
-      FinishScenes(tokens, vocabulary, asset_set, request.raw, progress);
+      FinishScenes(tokens, vocabulary, asset_set, prompts, request.raw, progress);
   report.physics_seconds = SamplingSeconds(start);
   const scene::SceneShard part =
       PartOf(scenes, vocabulary, request.sampling.prompts, OriginOf(request, weights));
