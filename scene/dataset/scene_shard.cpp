@@ -13,6 +13,7 @@ namespace {
 
 constexpr char kFormat[] = "simwright scenes";
 constexpr std::int64_t kVersion = 1;
+constexpr char kNoPrompt[] = " ";  // the empty prompt in a file, whose texts are not empty
 constexpr std::size_t kScenesPerChunk = 16;
 constexpr int kGzip = 4;
 constexpr std::size_t kCounts = 5, kFigures = 3;  // numbers per attempt
@@ -73,7 +74,11 @@ void WriteShard(const SceneShard& part, const fs::path& path) {
        static_cast<std::size_t>(vocabulary.TokenWidth())},
       part.tokens.data(), {.rows_per_chunk = kScenesPerChunk, .gzip = kGzip});
   WriteAttempts(part.attempts, &root);
-  if (!part.prompts.empty()) root.WriteTexts("prompts", part.prompts);
+  if (!part.prompts.empty()) {
+    std::vector<std::string> prompts = part.prompts;
+    std::replace(prompts.begin(), prompts.end(), std::string(), std::string(kNoPrompt));
+    root.WriteTexts("prompts", prompts);
+  }
   writer.CommitSealed();
 }
 
@@ -172,7 +177,8 @@ std::vector<std::string> SceneShardFile::Prompts(int first, int count) const {
   }
   const core::Hdf5Reader reader(path_);
   if (!reader.root().Has("prompts")) return {};
-  const std::vector<std::string> prompts = reader.root().ReadTexts("prompts");
+  std::vector<std::string> prompts = reader.root().ReadTexts("prompts");
+  std::replace(prompts.begin(), prompts.end(), std::string(kNoPrompt), std::string());
   if (prompts.size() != static_cast<std::size_t>(scenes_)) {
     throw core::Error("it has " + std::to_string(prompts.size()) + " prompts for " +
                           std::to_string(scenes_) + " scenes",

@@ -149,6 +149,14 @@ SceneShard PartWithPrompts(int number, int scenes) {
   return part;
 }
 
+TEST(SceneDataset, AnEmptyPromptStaysEmpty) {
+  const core::TemporaryFolder folder;
+  SceneShard part = PartWithPrompts(0, 3);
+  part.prompts[1].clear();
+  WriteShard(part, folder.path() / ShardName(0));
+  EXPECT_EQ(SceneDataset(folder.path()).ReadPrompts(0, 3), part.prompts);
+}
+
 TEST(SceneDataset, ReadsPromptsAcrossItsParts) {
   const core::TemporaryFolder folder;
   for (int i = 0; i < 2; ++i) WriteShard(PartWithPrompts(i, 3), folder.path() / ShardName(i));
