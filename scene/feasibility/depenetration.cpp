@@ -226,8 +226,9 @@ void ProjectionSolver::StartFromRelations() {
   std::vector<SeparationConstraint> rows;
   AddRelationRows(&rows);
   std::vector<Vector3d> shifts;
-  SolveLeastDisplacement(fixed_, {}, &rows, &shifts);
-  shifts_ = std::move(shifts);
+  const double violation = SolveLeastDisplacement(fixed_, {}, &rows, &shifts);
+  // Contradictory relations would displace bodies without bound.
+  if (violation <= options_.tolerance) shifts_ = std::move(shifts);
 }
 
 Projection ProjectionSolver::RunRounds() {

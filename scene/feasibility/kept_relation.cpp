@@ -123,7 +123,7 @@ class RelationPlanes {
   }
 
   // Keeps the gaps between the boxes in a rectangle whose corner is at the limit, in the direction
-  // of the initial gaps.
+  // of the initial gaps. Level boxes have a gap in height of at most kContactHeight.
   void Near() {
     const Vector2d gap = (start_.cwiseAbs() - a_.half - b_.half).cwiseMax(0.0).head<2>();
     const double angle =

@@ -46,7 +46,7 @@ PromptAgreement AgreementWith(const Prompt& prompt, const std::vector<SceneObjec
 
 // Returns the chance level of StatementShare: the mean over `shuffles` of its value after the
 // positions of the scene's free objects are permuted at random, each object keeping its rotation.
-// What a model gains over it comes from relations, not from the objects and places of the scene
+// The gain of a model over it comes from relations, not from the objects and places of the scene
 // type. Throws core::Error as AgreementWith does, and for shuffles < 1.
 double ChanceStatementShare(const Prompt& prompt, const std::vector<SceneObject>& objects,
                             const CategorySizes& sizes, int shuffles, core::Rng& rng);

@@ -34,7 +34,7 @@ struct PromptReading {
 //   others      "and some other objects", "and more"
 //   statements  the relations of Relation in common wordings, shelf tiers, ordinals; "the apple" is
 //               an object that was named before, or one that is thereby asked for
-// What Prompt::Text returns is read back as the same prompt. A blank text gives the empty prompt.
+// The result of Prompt::Text is read back as the same prompt. A blank text gives the empty prompt.
 // Without `wordnet` (null) synonyms are not understood. Throws core::Error for a text that is too
 // long (kMostPromptWords), is not UTF-8 or has control characters, for contradictions, naming both
 // parts, and for a text in which nothing is understood, naming the nearest known names.
