@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "scene/asset_set/asset_set.h"
@@ -19,5 +20,16 @@ enum class BodyShape {
 // core::Error for a category without an asset, or a pose that is not finite.
 double TotalPenetration(const std::vector<SceneObject>& objects, const AssetSet& asset_set,
                         BodyShape shape);
+
+// Two objects that penetrate each other.
+struct PenetratingPair {
+  size_t a = 0, b = 0;  // a < b
+  double depth = 0.0;   // m, of their deepest pair of convex parts
+};
+
+// Returns the pairs of objects whose parts penetrate by more than `depth` (m, >= 0), sorted, pairs
+// of welded objects excluded. Throws as TotalPenetration does.
+std::vector<PenetratingPair> PenetratingPairs(const std::vector<SceneObject>& objects,
+                                              const AssetSet& asset_set, double depth);
 
 }  // namespace simwright::scene
