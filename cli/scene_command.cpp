@@ -6,6 +6,7 @@
 #include "cli/findings_output.h"
 #include "cli/scene_export_command.h"
 #include "cli/scene_model_commands.h"
+#include "cli/scene_posttrain_command.h"
 #include "cli/scene_steering_commands.h"
 #include "core/error.h"
 #include "core/json.h"
@@ -97,6 +98,7 @@ void AddScene(CLI::App* app, CommonOptions* common, Run* run) {
   AddSceneSample(scene, common, run);
   AddSceneComplete(scene, common, run);
   AddSceneRearrange(scene, common, run);
+  AddScenePosttrain(scene, common, run);
   AddSceneEvaluate(scene, common, run);
   AddSceneFeatures(scene, common, run);
   AddSceneExport(scene, common, run);

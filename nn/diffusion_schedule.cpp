@@ -71,18 +71,27 @@ torch::Tensor DiffusionSchedule::DdimStep(const torch::Tensor& noisy, const torc
   return SignalAt(previous) * clean + NoiseAt(previous) * noise;
 }
 
+double DiffusionSchedule::StepDeviation(int t, int previous, double eta) const {
+  if (previous < 0) return 0.0;
+  const double kept = SignalAt(t) / SignalAt(previous);  // signal kept from `previous` to t
+  return eta * NoiseAt(previous) / NoiseAt(t) * std::sqrt(1.0 - kept * kept);
+}
+
+torch::Tensor DiffusionSchedule::StepMean(const torch::Tensor& noisy, const torch::Tensor& clean,
+                                          int t, int previous, double eta) const {
+  if (previous < 0) return clean;
+  const double earlier_spread = NoiseAt(previous), deviation = StepDeviation(t, previous, eta);
+  const torch::Tensor noise = (noisy - SignalAt(t) * clean) / NoiseAt(t);
+  const double direct =
+      std::sqrt(std::max(0.0, earlier_spread * earlier_spread - deviation * deviation));
+  return SignalAt(previous) * clean + direct * noise;
+}
+
 torch::Tensor DiffusionSchedule::StochasticStep(const torch::Tensor& noisy,
                                                 const torch::Tensor& clean, int t, int previous,
                                                 double eta, const torch::Tensor& fresh) const {
   if (previous < 0) return clean;
-  const double signal = SignalAt(t), spread = NoiseAt(t);
-  const double earlier = SignalAt(previous), earlier_spread = NoiseAt(previous);
-  const double kept = signal / earlier;  // signal kept from `previous` to t
-  const double deviation = eta * earlier_spread / spread * std::sqrt(1.0 - kept * kept);
-  const torch::Tensor noise = (noisy - signal * clean) / spread;
-  const double direct =
-      std::sqrt(std::max(0.0, earlier_spread * earlier_spread - deviation * deviation));
-  return earlier * clean + direct * noise + deviation * fresh;
+  return StepMean(noisy, clean, t, previous, eta) + StepDeviation(t, previous, eta) * fresh;
 }
 
 }  // namespace simwright::nn

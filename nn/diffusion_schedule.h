@@ -35,6 +35,10 @@ class DiffusionSchedule {
   // Takes the deterministic DDIM step (Song et al. 2021) from t to `previous` < t; -1: to x_0.
   torch::Tensor DdimStep(const torch::Tensor& noisy, const torch::Tensor& noise, int t,
                          int previous) const;
+  // Returns the standard deviation of StochasticStep, and its mean: the step without noise.
+  double StepDeviation(int t, int previous, double eta) const;
+  torch::Tensor StepMean(const torch::Tensor& noisy, const torch::Tensor& clean, int t,
+                         int previous, double eta) const;
   // Takes the DDIM step from a predicted x_0 with a share `eta` in [0, 1] of the noise of the
   // posterior q(x_previous | x_t, x_0) (Song et al. 2021, equation 16). 1 samples from that
   // posterior, which with previous = t - 1 is the step of Ho et al. `fresh` is standard normal.

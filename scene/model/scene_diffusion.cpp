@@ -1,6 +1,7 @@
 #include "scene/model/scene_diffusion.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "scene/dataset/vocabulary.h"
@@ -10,7 +11,8 @@ namespace simwright::scene {
 namespace {
 
 constexpr double kCrossEntropyShare = 5e-4;
-constexpr double kNoLogit = -1e9;  // of a class without probability
+constexpr double kNoLogit = -1e9;            // of a class without probability
+constexpr double kLeastProbability = 1e-30;  // in a logarithm
 
 // Samples on the CPU, so that a seed gives the same numbers on every device.
 torch::Tensor NormalLike(const torch::Tensor& like, const at::Generator& generator) {
@@ -158,30 +160,67 @@ NoisyScenes SceneDiffusion::Noise(int count, int entries, const at::Generator& g
   return scenes;
 }
 
+StepDistribution SceneDiffusion::Distribution(const NoisyScenes& scenes, const Denoised& guess,
+                                              int t, int previous,
+                                              const StepOptions& options) const {
+  StepDistribution distribution;
+  distribution.deviation = poses_.StepDeviation(t, previous, options.eta);
+  const auto mean = [&](const torch::Tensor& noisy, const torch::Tensor& noise,
+                        const torch::Tensor& absent) {
+    torch::Tensor clean = poses_.CleanFrom(noisy, noise, scenes.time).clamp(-1.0, 1.0);
+    if (absent.defined()) clean = clean.masked_fill(absent, -1.0);
+    return poses_.StepMean(noisy, clean, t, previous, options.eta);
+  };
+  distribution.pose_mean = mean(scenes.poses, guess.pose_noise, {});
+  if (continuous_) {
+    distribution.class_mean = mean(scenes.classes, guess.classes, options.forbidden);
+    return distribution;
+  }
+  const torch::Tensor logits = options.forbidden.defined()
+                                   ? guess.classes.masked_fill(options.forbidden, kNoLogit)
+                                   : guess.classes;
+  distribution.class_probabilities =
+      classes_.Posterior(scenes.classes, torch::softmax(logits, -1), scenes.time,
+                         torch::full_like(scenes.time, previous));
+  return distribution;
+}
+
+void SceneDiffusion::Draw(const StepDistribution& distribution, const at::Generator& generator,
+                          NoisyScenes* scenes) const {
+  const auto normal = [&](const torch::Tensor& mean) {
+    const torch::Tensor noise = NormalLike(mean, generator);  // drawn for certain parts, too
+    return distribution.deviation > 0.0 ? mean + distribution.deviation * noise : mean;
+  };
+  scenes->poses = normal(distribution.pose_mean);
+  scenes->classes = continuous_
+                        ? normal(distribution.class_mean)
+                        : CategoryDiffusion::Draw(distribution.class_probabilities, generator);
+}
+
+torch::Tensor SceneDiffusion::LogProbability(const StepDistribution& distribution,
+                                             const NoisyScenes& scenes) const {
+  const double deviation = distribution.deviation;
+  const auto normal = [&](const torch::Tensor& x, const torch::Tensor& mean) {
+    const double constant = std::log(deviation) + 0.5 * std::log(2.0 * M_PI);
+    return (-0.5 * ((x - mean) / deviation).square() - constant).sum({1, 2});
+  };
+  torch::Tensor sum = torch::zeros({scenes.poses.size(0)}, scenes.poses.options());
+  if (deviation > 0.0) {
+    sum = sum + normal(scenes.poses, distribution.pose_mean);
+    if (continuous_) sum = sum + normal(scenes.classes, distribution.class_mean);
+  }
+  if (continuous_) return sum;
+  const torch::Tensor chosen =
+      distribution.class_probabilities.gather(-1, scenes.classes.unsqueeze(-1)).squeeze(-1);
+  return sum + torch::log(chosen.clamp_min(kLeastProbability)).sum(1);
+}
+
 void SceneDiffusion::Step(Denoiser* denoiser, int t, int previous, const StepOptions& options,
                           const at::Generator& generator, NoisyScenes* scenes) const {
   scenes->time =
       torch::full({scenes->poses.size(0)}, t, scenes->classes.options().dtype(torch::kLong));
   const Denoised guess = PredictGuided(denoiser, *scenes, options.guidance);
-  const auto advance = [&](const torch::Tensor& noisy, const torch::Tensor& noise,
-                           const torch::Tensor& absent) {
-    torch::Tensor clean = poses_.CleanFrom(noisy, noise, scenes->time).clamp(-1.0, 1.0);
-    if (absent.defined()) clean = clean.masked_fill(absent, -1.0);
-    return poses_.StochasticStep(noisy, clean, t, previous, options.eta,
-                                 NormalLike(noisy, generator));
-  };
-  scenes->poses = advance(scenes->poses, guess.pose_noise, {});
-  if (continuous_) {
-    scenes->classes = advance(scenes->classes, guess.classes, options.forbidden);
-    return;
-  }
-  const torch::Tensor logits = options.forbidden.defined()
-                                   ? guess.classes.masked_fill(options.forbidden, kNoLogit)
-                                   : guess.classes;
-  const torch::Tensor posterior =
-      classes_.Posterior(scenes->classes, torch::softmax(logits, -1), scenes->time,
-                         torch::full_like(scenes->time, previous));
-  scenes->classes = CategoryDiffusion::Draw(posterior, generator);
+  Draw(Distribution(*scenes, guess, t, previous, options), generator, scenes);
 }
 
 CleanScenes SceneDiffusion::Clean(const NoisyScenes& scenes, const torch::Tensor& forbidden) const {

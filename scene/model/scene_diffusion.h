@@ -46,6 +46,14 @@ struct StepOptions {
   torch::Tensor forbidden;  // (B x N x K, bool): classes that no clean scene has; undefined: none
 };
 
+// The distribution p(x_previous | x_t) of a denoising step.
+struct StepDistribution {
+  torch::Tensor pose_mean;            // (B x N x 12)
+  torch::Tensor class_mean;           // (B x N x K), of a continuous model
+  double deviation = 0.0;             // of poses and continuous classes; 0: they are certain
+  torch::Tensor class_probabilities;  // (B x N x K + 1), of a mixed model
+};
+
 // Mixed diffusion of scenes (Pfaff et al., after Hu et al. 2024): poses by DDPM (linear betas 1e-4
 // to 0.02, noise prediction, x_0 clipped to [-1, 1]), classes by mask and replace. In a continuous
 // model both by DDPM, with classes as one-hot vectors from -1 to 1.
@@ -68,10 +76,21 @@ class SceneDiffusion {
   // Return a sample of q(x_t | x_0) for all scenes at one t, and the scenes without noise.
   NoisyScenes NoisyAt(const CleanScenes& scenes, int t, const at::Generator& generator) const;
   NoisyScenes WithoutNoise(const CleanScenes& scenes) const;
-  // Performs one denoising step from t to `previous` < t (-1: clean); poses receive `eta` times the
   // Performs one denoising step from t to `previous` < t (-1: clean).
   void Step(Denoiser* denoiser, int t, int previous, const StepOptions& options,
             const at::Generator& generator, NoisyScenes* scenes) const;
+  // Returns the distribution of the step from t to `previous`, given what the denoiser predicts for
+  // the scenes at t.
+  StepDistribution Distribution(const NoisyScenes& scenes, const Denoised& guess, int t,
+                                int previous, const StepOptions& options) const;
+  // Samples poses and classes from a distribution.
+  void Draw(const StepDistribution& distribution, const at::Generator& generator,
+            NoisyScenes* scenes) const;
+  // Returns the logarithm of the density of poses and classes, (B), summed over all entries: of
+  // normal distributions, for those of a mixed model's classes of their probabilities. A part that
+  // is certain has none. Differentiable in the distribution.
+  torch::Tensor LogProbability(const StepDistribution& distribution,
+                               const NoisyScenes& scenes) const;
   // Returns the clean scenes at the end of sampling. A continuous class is the argmax of those
   // that are not `forbidden`.
   CleanScenes Clean(const NoisyScenes& scenes, const torch::Tensor& forbidden = {}) const;

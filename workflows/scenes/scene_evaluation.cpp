@@ -14,18 +14,15 @@
 #include "scene/metrics/frechet.h"
 #include "scene/metrics/label_render.h"
 #include "scene/metrics/penetration.h"
-#include "scene/metrics/scene_features.h"
-#include "workflows/priors/models_folder.h"
-#include "workflows/scenes/scene_feature_training.h"
+#include "workflows/scenes/scene_set_features.h"
 #include "workflows/scenes/scene_sets.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kFewest = 4;  // the minimum size of a set: two halves of two scenes
-// The learning rates: for our few features, and the published one for a user's network.
-constexpr double kOwnRate = 1e-2, kPublishedRate = 1e-4;
+constexpr int kFewest = 4;               // the minimum size of a set: two halves of two scenes
+constexpr double kPublishedRate = 1e-4;  // of the classifier, for a user's network
 
 void ValidateEvaluation(const SceneEvaluationRequest& request) {
   if (request.count < kFewest) throw core::Error("at least 4 scenes are compared", "--count");
@@ -39,15 +36,7 @@ std::optional<scene::SceneFeatures> FindFeatures(const SceneEvaluationRequest& r
   if (!request.features.empty()) {
     return scene::SceneFeatures::LoadTorchScript(request.features, request.feature_side);
   }
-  const fs::path models = ModelsFolder();
-  if (!models.empty() && fs::exists(FeatureWeights(models))) {
-    return scene::SceneFeatures::Load(FeatureWeights(models));
-  }
-  findings->push_back({"features", core::Severity::kWarning, FeatureWeights(models).string(),
-                       "no features were found: images are not compared (simwright scene "
-                       "features trains them, --features uses your own network)",
-                       0.0});
-  return std::nullopt;
+  return ShippedSceneFeatures(findings);
 }
 
 double Quantile(std::vector<double> values, double share) {
@@ -93,7 +82,7 @@ class Evaluation {
     result_.reference_is_held_out = held_out;
     result_.reference_scenes = static_cast<int>(reference_->size());
     result_.training_scenes = static_cast<int>(training.size());
-    result_.learning_rate = features && features->own() ? kOwnRate : kPublishedRate;
+    result_.learning_rate = features && features->own() ? kOwnFeaturesRate : kPublishedRate;
   }
 
   SceneEvaluation Run() {
@@ -114,27 +103,8 @@ class Evaluation {
 
  private:
   scene::FeatureMatrix FeaturesOf(const SceneSet& set, const std::string& name) {
-    constexpr size_t kBatch = 64;  // images in memory at once
-    const core::Camera camera = scene::LabelCamera(sets_.vocabulary.type);
-    scene::FeatureMatrix features;
     progress_->Stage("images of " + name, static_cast<int>(set.size()));
-    for (size_t first = 0; first < set.size(); first += kBatch) {
-      const SceneSet batch(
-          set.begin() + static_cast<std::ptrdiff_t>(first),
-          set.begin() + static_cast<std::ptrdiff_t>(std::min(set.size(), first + kBatch)));
-      std::vector<core::Image> pictures(batch.size());
-      ForEach(batch, progress_, [&](size_t i) {
-        pictures[i] =
-            features_->Resized(LabelRender(batch[i], sets_.vocabulary, sets_.asset_set, camera));
-      });
-      const scene::FeatureMatrix rows = features_->Of(pictures);
-      if (first == 0) features.resize(static_cast<Eigen::Index>(set.size()), rows.cols());
-      if (rows.cols() != features.cols()) {
-        throw core::Error("its number of features varies", features_->name());
-      }
-      features.middleRows(static_cast<Eigen::Index>(first), rows.rows()) = rows;
-    }
-    return features;
+    return FeaturesOfScenes(set, sets_.vocabulary, sets_.asset_set, *features_, progress_);
   }
 
   PenetrationSummary PenetrationOf(const SceneSet& set) {
