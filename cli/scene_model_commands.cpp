@@ -20,7 +20,8 @@ namespace {
 constexpr int kShapePoints = 256;  // for --by-shape
 
 struct TrainFlags {
-  std::filesystem::path dataset, output, assets;
+  std::vector<std::filesystem::path> datasets;
+  std::filesystem::path output, assets;
   bool by_shape = false, text = false;
   std::string size = "tiny", method = "ours";
   scene::SceneTrainingOptions options;
@@ -50,6 +51,23 @@ core::OrderedJson ReportJson(const scene::SceneTrainingReport& report) {
   return json;
 }
 
+// Reads the shapes and sizes of the datasets' assets that the model needs.
+void ReadAssets(const std::vector<scene::SceneDataset>& datasets,
+                const scene::SceneModelOptions& model, TrainFlags* flags) {
+  for (size_t i = 0; i < datasets.size(); ++i) {
+    const scene::Vocabulary& vocabulary = datasets[i].vocabulary();
+    if (model.shape_points > 0) {
+      flags->options.shapes = workflows::ShapesOfDataset(flags->datasets[i], flags->assets,
+                                                         vocabulary, model.shape_points);
+    }
+    if (!model.text) continue;
+    for (const auto& [category, size] :
+         workflows::SizesOfDataset(flags->datasets[i], flags->assets, vocabulary)) {
+      if (i == 0 || vocabulary.ClassOf(category) >= 0) flags->options.sizes[category] = size;
+    }
+  }
+}
+
 int TrainSceneModel(TrainFlags flags, const CommonOptions& common) {
   flags.options.seed = common.seed;
   const std::filesystem::path weights = flags.output / scene::kWeightsFile;
@@ -57,22 +75,17 @@ int TrainSceneModel(TrainFlags flags, const CommonOptions& common) {
     throw core::Error("a model already exists", weights.string(),
                       "continue with --resume, choose another folder, or replace it with --force");
   }
-  const scene::SceneDataset dataset(flags.dataset);
+  const std::vector<scene::SceneDataset> datasets(flags.datasets.begin(), flags.datasets.end());
   const scene::SceneModelOptions model = ModelOf(flags);
-  if (model.shape_points > 0) {
-    flags.options.shapes = workflows::ShapesOfDataset(flags.dataset, flags.assets,
-                                                      dataset.vocabulary(), model.shape_points);
-  }
-  if (model.text) {
-    flags.options.sizes =
-        workflows::SizesOfDataset(flags.dataset, flags.assets, dataset.vocabulary());
-  }
+  ReadAssets(datasets, model, &flags);
+  std::vector<const scene::SceneDataset*> pointers;
+  for (const scene::SceneDataset& one : datasets) pointers.push_back(&one);
   std::optional<core::FolderLock> lock;
   if (std::filesystem::exists(flags.output)) lock.emplace(flags.output, "a training");
   core::Progress progress(common.ProgressStyle());
   scene::SceneTrainingReport report;
   try {
-    report = scene::TrainSceneModel(dataset, model, flags.options, flags.output, &progress);
+    report = scene::TrainSceneModel(pointers, model, flags.options, flags.output, &progress);
   } catch (const core::Cancelled&) {
     if (!std::filesystem::exists(flags.output / scene::kStateFile)) throw;
     progress.Finish();
@@ -114,9 +127,13 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
   CLI::App* command =
       scene->add_subcommand("train", "Train a diffusion model on the scenes of a dataset");
   command->footer(
-      "Example:\n  simwright scene train out/dimsum -o out/dimsum_model\n"
+      "Examples:\n  simwright scene train out/dimsum -o out/dimsum_model\n"
+      "  simwright scene train out/pantry out/shelves --text -o out/both\n"
       "--resume continues an interrupted run in the folder.");
-  command->add_option("dataset", flags->dataset, "A dataset written by `simwright scene generate`")
+  command
+      ->add_option("datasets", flags->datasets,
+                   "Datasets written by `simwright scene generate`; several scene types, one "
+                   "dataset each, make one model, which reads the type in its prompts")
       ->required();
   command->add_option("-o,--output", flags->output, "The folder for weights and losses")
       ->required();
@@ -172,7 +189,8 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
       "settled;\n"
       "objects that fall are dropped.");
   command->add_option("weights", request->weights, "A model written by `simwright scene train`");
-  command->add_option("--type", request->type, "The scene type, with its shipped weights");
+  command->add_option("--type", request->type,
+                      "The scene type: with its shipped weights, or of a model of several types");
   command->add_option("--count", request->count, "Number of scenes")->capture_default_str();
   command->add_option("-o,--output", request->output, "The folder for the scenes")->required();
   command->add_option("--assets", request->assets,

@@ -10,6 +10,7 @@
 #include "scene/model/scene_diffusion.h"
 #include "scene/model/token_tensors.h"
 #include "scene/model/weights_file.h"
+#include "scene/prompt/scene_type_words.h"
 
 namespace simwright::scene {
 
@@ -20,7 +21,10 @@ struct SceneModel::Network {
   std::unique_ptr<ExternalTextEncoder> text_encoder;  // null: the denoiser's own
 
   // Returns prompts in the form that the denoiser attends to.
-  EncodedText Encode(const std::vector<std::string>& prompts) const {
+  EncodedText Encode(std::vector<std::string> prompts) const {
+    if (!metadata.types.empty()) {
+      for (std::string& one : prompts) one = PromptOfSceneType(one, metadata.vocabulary.type);
+    }
     const WordPieces pieces(metadata.text_pieces);
     return denoiser->EncodeText(
         TextInputOf(prompts, pieces, metadata.options.text_length, text_encoder.get()).To(device));
@@ -62,6 +66,30 @@ SceneModelMetadata ReadSceneModelMetadata(const std::filesystem::path& weights) 
   return ReadWeights(weights).metadata;
 }
 
+std::vector<std::string> SceneModelMetadata::TypeNames() const {
+  if (types.empty()) return {vocabulary.type};
+  std::vector<std::string> names;
+  for (const SceneModelType& one : types) names.push_back(one.name);
+  return names;
+}
+
+SceneModelMetadata SceneModelMetadata::OfType(const std::string& type) const {
+  if (types.empty() && type == vocabulary.type) return *this;
+  for (const SceneModelType& one : types) {
+    if (one.name != type) continue;
+    SceneModelMetadata metadata = *this;
+    metadata.vocabulary.type = one.name;
+    metadata.vocabulary.entries = one.entries;
+    metadata.range = one.range;
+    metadata.training_scenes = one.training_scenes;
+    metadata.data_seed = one.data_seed;
+    return metadata;
+  }
+  std::string names;
+  for (const std::string& name : TypeNames()) names += (names.empty() ? "" : ", ") + name;
+  throw core::Error("the model does not have this scene type", type, "it has " + names);
+}
+
 bool SampleOptions::IsValid(std::string* error) const {
   const auto fails = [&](const char* what) {
     *error = what;
@@ -80,8 +108,13 @@ SceneModel::SceneModel(SceneModel&&) noexcept = default;
 SceneModel& SceneModel::operator=(SceneModel&&) noexcept = default;
 
 SceneModel SceneModel::Load(const std::filesystem::path& weights,
-                            const std::filesystem::path& text_encoder) {
+                            const std::filesystem::path& text_encoder, const std::string& type) {
   ReadModel model = ReadWeights(weights);
+  if (!type.empty()) {
+    model.metadata = model.metadata.OfType(type);
+  } else if (!model.metadata.types.empty()) {
+    throw core::Error("the model has several scene types", weights.string(), "choose one: --type");
+  }
   const torch::Device device = nn::BestDevice();
   model.denoiser->to(device);
   std::unique_ptr<ExternalTextEncoder> encoder = EncoderOf(model.metadata, text_encoder);

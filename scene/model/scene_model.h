@@ -33,7 +33,18 @@ struct SampleOptions {
   bool IsValid(std::string* error) const;
 };
 
-// The metadata of a weights file.
+// One of the scene types of a model of several.
+struct SceneModelType {
+  std::string name;
+  int entries = 0;  // most objects of a scene
+  PoseRange range;
+  int training_scenes = 0;
+  std::uint64_t data_seed = 0;
+  std::vector<std::string> categories;  // that its training scenes may have
+};
+
+// The metadata of a weights file. Of a model of several scene types, it is that of one type at a
+// time, with the classes of all.
 struct SceneModelMetadata {
   Vocabulary vocabulary;
   SceneModelOptions options;
@@ -44,6 +55,12 @@ struct SceneModelMetadata {
   int steps = 0;                              // training steps
   std::vector<std::string> text_pieces = {};  // word pieces of a model that reads prompts
   std::string text_encoder = "";              // hash of the external text encoder; empty: its own
+  std::vector<SceneModelType> types = {};     // of a model of several scene types; else empty
+
+  // Returns the metadata of one of the types. Throws core::Error, naming the types, for another
+  // one; a model of one type has its own only.
+  SceneModelMetadata OfType(const std::string& type) const;
+  std::vector<std::string> TypeNames() const;
 };
 
 // Returns the metadata of a weights file. Throws core::Error if it is missing or not a scene model.
@@ -52,10 +69,13 @@ SceneModelMetadata ReadSceneModelMetadata(const std::filesystem::path& weights);
 // A trained model of scenes. Thread-safe unless AddAsset is called.
 class SceneModel {
  public:
-  // Loads a model. `text_encoder`: the external encoder that it was trained with, if any. Throws
-  // core::Error if a file is missing or not a scene model, or the encoder is another one.
+  // Loads a model. `text_encoder`: the external encoder that it was trained with, if any. `type`:
+  // the scene type that it is to generate, of a model of several; it then reads the type before
+  // each prompt (PromptOfSceneType). Throws core::Error if a file is missing or not a scene model,
+  // the encoder is another one, or the model does not have the type.
   static SceneModel Load(const std::filesystem::path& weights,
-                         const std::filesystem::path& text_encoder = {});
+                         const std::filesystem::path& text_encoder = {},
+                         const std::string& type = "");
   ~SceneModel();
   SceneModel(SceneModel&&) noexcept;
   SceneModel& operator=(SceneModel&&) noexcept;

@@ -9,8 +9,7 @@
 #include "nn/compute.h"
 #include "nn/mixed_precision.h"
 #include "nn/trainer.h"
-#include "scene/dataset/scene_stream.h"
-#include "scene/model/token_tensors.h"
+#include "scene/model/training_data.h"
 #include "scene/model/training_prompts.h"
 #include "scene/model/weights_file.h"
 
@@ -20,11 +19,7 @@ namespace {
 
 constexpr int kBadInARow = 20;     // most consecutive losses that are not finite
 constexpr int kHeldOutBatch = 64;  // scenes, in one batch
-
-int HeldOut(int scenes, const SceneTrainingOptions& options) {
-  const int share = static_cast<int>(options.held_out * scenes);
-  return std::min(share, options.held_out_most);
-}
+constexpr int kTypesPerUpdate = 2;
 
 // The sums of the losses since the last line.
 class LossMeans {
@@ -32,6 +27,7 @@ class LossMeans {
   // Adds the losses of the shares of a batch.
   void Add(const std::vector<SceneLoss>& losses, const std::vector<double>& shares) {
     for (size_t i = 0; i < losses.size(); ++i) {
+      if (shares[i] == 0.0) continue;
       sums_.total += shares[i] * losses[i].total.item<double>();
       sums_.translation += shares[i] * losses[i].translation.item<double>();
       sums_.rotation += shares[i] * losses[i].rotation.item<double>();
@@ -59,24 +55,25 @@ class LossMeans {
 
 class Training {
  public:
-  Training(const SceneDataset& dataset, const SceneModelOptions& model,
+  Training(const std::vector<const SceneDataset*>& datasets, const SceneModelOptions& model,
            const SceneTrainingOptions& options, const fs::path& output)
-      : dataset_(dataset),
+      : data_(datasets, options),
         options_(options),
         output_(output),
         device_(nn::BestDevice()),
-        held_out_(HeldOut(dataset.SceneCount(), options)),
-        training_(dataset.SceneCount() - held_out_),
-        metadata_{dataset.vocabulary(), model, PoseRange::Of(dataset, 0, training_)},
-        diffusion_(model, dataset.vocabulary().ClassCount()) {
-    metadata_.training_scenes = training_;
-    metadata_.data_seed = dataset.parts().front().origin().seed;
+        metadata_{{}, model, data_.types().front().range},
+        diffusion_(model, ClassCount()) {
+    data_.Describe(&metadata_);
+    if (!metadata_.types.empty() && !model.text) {
+      throw core::Error("a model of several scene types reads the type in its prompts", "",
+                        "train with --text");
+    }
     if (model.text) ReadPrompts();
     torch::manual_seed(options.seed);  // for the initial weights
-    denoiser_ = MakeDenoiser(metadata_.options, dataset.vocabulary().ClassCount());
+    denoiser_ = MakeDenoiser(metadata_.options, ClassCount());
     metadata_.parameters = ParameterCount(*denoiser_);
     denoiser_->to(device_);
-    average_ = MakeDenoiser(metadata_.options, dataset.vocabulary().ClassCount());
+    average_ = MakeDenoiser(metadata_.options, ClassCount());
     average_->to(device_);
     if (model.shape_points > 0) {
       denoiser_->SetShapes(options.shapes);
@@ -89,19 +86,12 @@ class Training {
     const auto start = std::chrono::steady_clock::now();
     const int first = trainer_->first_step();
     losses_ = ReadLosses(output_ / kLossesFile, first);
-    SceneStream stream(dataset_, {0, training_, options_.buffer}, options_.seed + first);
+    data_.Start(options_.seed + first, options_.buffer);
     core::Rng rng = core::StreamRng(options_.seed, static_cast<std::uint64_t>(first) + 1);
     const at::Generator generator = at::detail::createCPUGenerator(rng());
-    std::vector<float> tokens(static_cast<size_t>(options_.batch) *
-                              static_cast<size_t>(dataset_.vocabulary().entries) *
-                              static_cast<size_t>(dataset_.vocabulary().TokenWidth()));
     progress->Stage("training", options_.trainer.steps - first);
     for (int step = first; step < options_.trainer.steps; ++step) {
-      stream.Next(options_.batch, tokens.data());
-      TextInput text;
-      if (prompts_) text = prompts_->Draw(tokens, metadata_.options.text_length, rng);
-      Step(step, OnDevice(TensorsOf(tokens, dataset_.vocabulary(), metadata_.range)),
-           text.To(device_), generator);
+      Step(step, Batches(step, &rng, generator));
       const bool last = step + 1 == options_.trainer.steps;
       if ((step + 1) % options_.report_every == 0 || last) Record(step + 1);
       if (trainer_->SaveDue(step)) Save(step + 1);
@@ -111,8 +101,8 @@ class Training {
     SceneTrainingReport report;
     report.weights = output_ / kWeightsFile;
     report.parameters = metadata_.parameters;
-    report.training_scenes = training_;
-    report.held_out_scenes = held_out_;
+    report.training_scenes = data_.training();
+    report.held_out_scenes = data_.held_out();
     report.losses = losses_;
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -124,41 +114,70 @@ class Training {
     return {scenes.poses.to(device_), scenes.classes.to(device_)};
   }
 
+  int ClassCount() const { return data_.ClassCount(); }
+
   void ReadPrompts() {
-    prompts_ = std::make_unique<TrainingPrompts>(dataset_, training_, options_);
+    prompts_ = std::make_unique<TrainingPrompts>(data_, options_);
     prompts_->Complete(&metadata_.options);
     metadata_.text_pieces = prompts_->pieces().pieces();
     if (prompts_->encoder() != nullptr) metadata_.text_encoder = prompts_->encoder()->hash();
   }
 
-  void Step(int step, const CleanScenes& scenes, const TextInput& text,
-            const at::Generator& generator) {
-    DenoisingBatch batch = diffusion_.AddNoise(scenes, generator);
-    batch.text = text;
-    const std::int64_t count = scenes.poses.size(0);
-    const int share_count = nn::ShareCount(device_, count);
-    // The padding of prompts takes as long as prompts. On a CPU each share is therefore a part of
-    // short prompts and one of long ones.
-    const bool sorts = text.IsDefined() && !device_.is_cuda() && count >= 2 * share_count;
-    if (sorts) batch = batch.SortedByPromptLength();
-    const int parts = sorts ? 2 * share_count : share_count;
-    std::vector<SceneLoss> losses(static_cast<size_t>(parts));
-    std::vector<double> shares(losses.size());
-    const auto loss_of = [&](int part) {
-      const size_t at = static_cast<size_t>(part);
-      const nn::Share share = nn::ShareOf(count, parts, part);
-      shares[at] = static_cast<double>(share.count) / static_cast<double>(count);
+  DenoisingBatch BatchOf(int type, const std::vector<float>& tokens, core::Rng* rng,
+                         const at::Generator& generator) const {
+    TextInput text;
+    if (prompts_) text = prompts_->Draw(type, tokens, metadata_.options.text_length, *rng);
+    DenoisingBatch batch = diffusion_.AddNoise(OnDevice(data_.Tensors(type, tokens)), generator);
+    batch.text = text.To(device_);
+    return batch;
+  }
+
+  // Returns the batches of an update: one, or one of each of several types, which take turns.
+  std::vector<DenoisingBatch> Batches(int step, core::Rng* rng, const at::Generator& generator) {
+    const int types = static_cast<int>(data_.types().size());
+    const int some = std::min({types, kTypesPerUpdate, options_.batch});
+    std::vector<DenoisingBatch> batches;
+    for (int i = 0; i < some; ++i) {
+      const int type = static_cast<int>((static_cast<std::int64_t>(step) * some + i) % types);
+      const auto count = static_cast<int>(nn::ShareOf(options_.batch, some, i).count);
+      batches.push_back(BatchOf(type, data_.Next(type, count), rng, generator));
+    }
+    return batches;
+  }
+
+  // The padding of prompts takes as long as prompts. On a CPU each share is therefore a part of
+  // short prompts and one of long ones.
+  void Step(int step, std::vector<DenoisingBatch> batches) {
+    const int shares = nn::ShareCount(device_, batches.front().clean.poses.size(0));
+    const bool sorts = prompts_ != nullptr && !device_.is_cuda();
+    const int parts = sorts ? 2 * shares : shares;
+    if (sorts) {
+      for (DenoisingBatch& one : batches) one = one.SortedByPromptLength();
+    }
+    std::vector<SceneLoss> losses(batches.size() * static_cast<size_t>(parts));
+    std::vector<double> weights(losses.size(), 0.0);
+    const auto loss_of = [&](size_t batch, int part) {
+      const size_t at = batch * static_cast<size_t>(parts) + static_cast<size_t>(part);
+      const nn::Share share = nn::ShareOf(batches[batch].clean.poses.size(0), parts, part);
+      if (share.count == 0) return torch::zeros({}, device_);
+      weights[at] = static_cast<double>(share.count) / options_.batch;
       // On a GPU only; half-precision products speed up an update on a CPU with AMX by a tenth
       // only.
       const nn::MixedPrecision half(device_, options_.bfloat16_on_gpu && device_.is_cuda());
-      losses[at] = diffusion_.Loss(denoiser_.get(), batch.Part(share.first, share.count));
-      return shares[at] * losses[at].total;
+      losses[at] = diffusion_.Loss(denoiser_.get(), batches[batch].Part(share.first, share.count));
+      return weights[at] * losses[at].total;
     };
-    const double total = trainer_->Step(step, share_count, [&](int i) {
-      return sorts ? loss_of(i) + loss_of(parts - 1 - i) : loss_of(i);
+    const double total = trainer_->Step(step, shares, [&](int i) {
+      torch::Tensor sum;
+      for (size_t batch = 0; batch < batches.size(); ++batch) {
+        const torch::Tensor one = loss_of(batch, i);
+        sum = sum.defined() ? sum + one : one;
+        if (sorts) sum = sum + loss_of(batch, parts - 1 - i);
+      }
+      return sum;
     });
     if (std::isfinite(total)) {
-      means_.Add(losses, shares);
+      means_.Add(losses, weights);
       bad_ = 0;
       return;
     }
@@ -170,20 +189,24 @@ class Training {
   }
 
   // Returns the loss of the averaged weights on held-out scenes, at the same times and noise in
-  // every call.
+  // every call; the mean over the types.
   double HeldOutLoss() {
-    if (held_out_ == 0) return NAN;
+    if (data_.held_out() == 0) return NAN;
     const torch::NoGradGuard no_gradient;
     trainer_->CopyAverageTo(average_.get());
-    const std::vector<float> tokens = dataset_.Read(training_, std::min(held_out_, kHeldOutBatch));
     core::Rng rng = core::StreamRng(options_.seed, 0);
     const at::Generator generator = at::detail::createCPUGenerator(rng());
-    DenoisingBatch batch = diffusion_.AddNoise(
-        OnDevice(TensorsOf(tokens, dataset_.vocabulary(), metadata_.range)), generator);
-    if (prompts_) {
-      batch.text = prompts_->Draw(tokens, metadata_.options.text_length, rng).To(device_);
+    const int types = static_cast<int>(data_.types().size());
+    double sum = 0.0;
+    for (int i = 0; i < types; ++i) {
+      const TrainingType& type = data_.types()[static_cast<size_t>(i)];
+      const int count = std::min(type.held_out, std::max(1, kHeldOutBatch / types));
+      if (count == 0) return NAN;
+      const std::vector<float> tokens = type.dataset->Read(type.training, count);
+      sum +=
+          diffusion_.Loss(average_.get(), BatchOf(i, tokens, &rng, generator)).total.item<double>();
     }
-    return diffusion_.Loss(average_.get(), batch).total.item<double>();
+    return sum / types;
   }
 
   void Record(int step) {
@@ -201,11 +224,10 @@ class Training {
     core::WriteFile(output_ / kLossCurvesFile, LossCurves(metadata_.vocabulary.type, losses_));
   }
 
-  const SceneDataset& dataset_;
+  TrainingData data_;
   SceneTrainingOptions options_;
   fs::path output_;
   torch::Device device_;
-  int held_out_, training_;
   SceneModelMetadata metadata_;
   SceneDiffusion diffusion_;
   std::unique_ptr<TrainingPrompts> prompts_;  // null: the model reads none
@@ -245,22 +267,35 @@ bool SceneTrainingOptions::IsValid(std::string* error) const {
   return true;
 }
 
-SceneTrainingReport TrainSceneModel(const SceneDataset& dataset, const SceneModelOptions& model,
+SceneTrainingReport TrainSceneModel(const std::vector<const SceneDataset*>& datasets,
+                                    const SceneModelOptions& model,
                                     const SceneTrainingOptions& options, const fs::path& output,
                                     core::Progress* progress) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("training: " + error);
-  if (dataset.SceneCount() < 2) {
-    throw core::Error("a model needs at least 2 training scenes",
-                      std::to_string(dataset.SceneCount()) + " are there");
+  for (const SceneDataset* const dataset : datasets) {
+    if (dataset->SceneCount() < 2) {
+      throw core::Error("a model needs at least 2 training scenes",
+                        std::to_string(dataset->SceneCount()) + " are there");
+    }
+    if (model.shape_points > 0 &&
+        !options.shapes.IsValid(dataset->vocabulary(), model.shape_points, &error)) {
+      throw core::Error("training by shape: " + error);
+    }
   }
-  if (model.shape_points > 0 &&
-      !options.shapes.IsValid(dataset.vocabulary(), model.shape_points, &error)) {
-    throw core::Error("training by shape: " + error);
+  if (model.shape_points > 0 && datasets.size() > 1) {
+    throw core::Error("training by shape takes one dataset");
   }
   nn::PrepareForWork();
   fs::create_directories(output);
-  return Training(dataset, model, options, output).Run(progress);
+  return Training(datasets, model, options, output).Run(progress);
+}
+
+SceneTrainingReport TrainSceneModel(const SceneDataset& dataset, const SceneModelOptions& model,
+                                    const SceneTrainingOptions& options, const fs::path& output,
+                                    core::Progress* progress) {
+  return TrainSceneModel(std::vector<const SceneDataset*>{&dataset}, model, options, output,
+                         progress);
 }
 
 }  // namespace simwright::scene

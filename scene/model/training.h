@@ -56,11 +56,17 @@ struct SceneTrainingReport {
 inline constexpr char kWeightsFile[] = "model.pt", kStateFile[] = "training.pt",
                       kLossesFile[] = "losses.csv", kLossCurvesFile[] = "losses.svg";
 
-// Trains a model on the scenes of a dataset. At each saved state it writes the averaged weights to
-// output/model.pt and the losses to output/losses.csv and output/losses.svg. Resumes from the state
-// in `output` if the trainer's options ask for it. Throws core::Error for invalid options, for a
-// damaged dataset, and if so many losses in a row are not finite that training has diverged; the
-// last good state and weights are kept.
+// Trains a model on the scenes of datasets, one for each scene type. With several types, each
+// update has as many scenes of one as of another, the types take turns, and each has its own number
+// of entries and range of poses; such a model must read prompts, which name the type. At each saved
+// state it writes the averaged weights to output/model.pt and the losses to output/losses.csv and
+// output/losses.svg. Resumes from the state in `output` if the trainer's options ask for it. Throws
+// core::Error for invalid options, for a damaged dataset, and if so many losses in a row are not
+// finite that training has diverged; the last good state and weights are kept.
+SceneTrainingReport TrainSceneModel(const std::vector<const SceneDataset*>& datasets,
+                                    const SceneModelOptions& model,
+                                    const SceneTrainingOptions& options,
+                                    const std::filesystem::path& output, core::Progress* progress);
 SceneTrainingReport TrainSceneModel(const SceneDataset& dataset, const SceneModelOptions& model,
                                     const SceneTrainingOptions& options,
                                     const std::filesystem::path& output, core::Progress* progress);

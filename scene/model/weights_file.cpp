@@ -47,6 +47,13 @@ SceneModelMetadata MetadataOf(const core::JsonField& field) {
   metadata.training_scenes = field["training_scenes"].Int();
   metadata.data_seed = field["data_seed"].Unsigned();
   metadata.steps = field["steps"].Int();
+  if (field.Has("types")) {
+    for (const core::JsonField& one : field["types"].Elements()) {
+      metadata.types.push_back(
+          {one["name"].Text(), one["entries"].Int(), PoseRange::FromText(one["range"].Text()),
+           one["training_scenes"].Int(), one["data_seed"].Unsigned(), one["slots"].Texts()});
+    }
+  }
   if (metadata.options.text) {
     metadata.text_pieces = field["pieces"].Texts();
     metadata.text_encoder = field["text_encoder"].Text();
@@ -88,6 +95,18 @@ void WriteWeights(const Denoiser& denoiser, const SceneModelMetadata& metadata,
     json["text_length"] = metadata.options.text_length;
     json["pieces"] = metadata.text_pieces;
     json["text_encoder"] = metadata.text_encoder;
+  }
+  if (!metadata.types.empty()) {
+    core::OrderedJson types = core::OrderedJson::array();
+    for (const SceneModelType& one : metadata.types) {
+      types.push_back({{"name", one.name},
+                       {"entries", one.entries},
+                       {"range", one.range.Text()},
+                       {"training_scenes", one.training_scenes},
+                       {"data_seed", one.data_seed},
+                       {"slots", one.categories}});
+    }
+    json["types"] = types;
   }
   json["training_scenes"] = metadata.training_scenes;
   json["data_seed"] = metadata.data_seed;

@@ -1,6 +1,8 @@
 #include "workflows/scenes/scene_prompts.h"
 
+#include <cctype>
 #include <cstdio>
+#include <optional>
 #include <sstream>
 
 #include "core/error.h"
@@ -8,6 +10,7 @@
 #include "physics_params/wordnet.h"
 #include "scene/prompt/prompt_agreement.h"
 #include "scene/prompt/prompt_reading.h"
+#include "scene/prompt/scene_type_words.h"
 
 namespace simwright::workflows {
 namespace {
@@ -30,6 +33,19 @@ std::vector<PlacedPrompt> LinesOf(const std::filesystem::path& file) {
   }
   if (lines.empty()) throw core::Error("it has no prompts", file.string(), "write one per line");
   return lines;
+}
+
+// Returns true for a text of a scene and nothing in it: "a scene".
+bool IsBareScene(const std::string& text) {
+  std::string letters;
+  for (const char c : text) {
+    if (std::isalpha(static_cast<unsigned char>(c))) {
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    } else if (!std::isspace(static_cast<unsigned char>(c)) && c != '.') {
+      return false;
+    }
+  }
+  return letters == "scene" || letters == "ascene" || letters == "thescene";
 }
 
 PromptReport ReportOf(const scene::Prompt& prompt, size_t index, size_t prompts,
@@ -55,21 +71,26 @@ PromptReport ReportOf(const scene::Prompt& prompt, size_t index, size_t prompts,
 
 }  // namespace
 
-std::vector<scene::Prompt> ReadPrompts(const std::vector<std::string>& texts,
-                                       const std::filesystem::path& file,
-                                       const scene::Vocabulary& vocabulary,
-                                       core::Findings* findings) {
+RequestedPrompts ReadPromptsAndTypes(const std::vector<std::string>& texts,
+                                     const std::filesystem::path& file,
+                                     const scene::Vocabulary& vocabulary,
+                                     const std::vector<std::string>& types,
+                                     core::Findings* findings) {
   std::vector<PlacedPrompt> placed;
   for (const std::string& text : texts) placed.push_back({text, "--prompt"});
   if (!file.empty()) {
     const std::vector<PlacedPrompt> lines = LinesOf(file);
     placed.insert(placed.end(), lines.begin(), lines.end());
   }
-  std::vector<scene::Prompt> prompts;
-  for (const PlacedPrompt& one : placed) {
+  RequestedPrompts requested;
+  for (PlacedPrompt& one : placed) {
+    const std::optional<std::string> type = scene::TakeSceneType(types, &one.text);
+    requested.types.push_back(type.value_or(""));
     scene::PromptReading reading;
     try {
-      reading = ReadPrompt(one.text, vocabulary, physics_params::WordNet::Installed());
+      if (!type || !IsBareScene(one.text)) {
+        reading = ReadPrompt(one.text, vocabulary, physics_params::WordNet::Installed());
+      }
     } catch (const core::Error& error) {
       throw core::Error(error.what(), one.place);
     }
@@ -77,9 +98,16 @@ std::vector<scene::Prompt> ReadPrompts(const std::vector<std::string>& texts,
       finding.place = one.place;
       findings->push_back(std::move(finding));
     }
-    prompts.push_back(std::move(reading.prompt));
+    requested.prompts.push_back(std::move(reading.prompt));
   }
-  return prompts;
+  return requested;
+}
+
+std::vector<scene::Prompt> ReadPrompts(const std::vector<std::string>& texts,
+                                       const std::filesystem::path& file,
+                                       const scene::Vocabulary& vocabulary,
+                                       core::Findings* findings) {
+  return ReadPromptsAndTypes(texts, file, vocabulary, {}, findings).prompts;
 }
 
 std::vector<std::string> TextsOf(const std::vector<scene::Prompt>& prompts) {

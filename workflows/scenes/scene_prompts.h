@@ -13,6 +13,19 @@
 
 namespace simwright::workflows {
 
+struct RequestedPrompts {
+  std::vector<scene::Prompt> prompts;
+  std::vector<std::string> types;  // the scene type that each names; empty: none
+};
+
+// Reads prompts in free text, and the scene types of `types` that they name: "a pantry shelf with
+// two apples". A prompt of a type alone is empty. Otherwise as ReadPrompts.
+RequestedPrompts ReadPromptsAndTypes(const std::vector<std::string>& texts,
+                                     const std::filesystem::path& file,
+                                     const scene::Vocabulary& vocabulary,
+                                     const std::vector<std::string>& types,
+                                     core::Findings* findings);
+
 // Reads prompts in free text: `texts`, then the lines of `file` (empty: none) that are not blank.
 // Adds the findings of their words to `findings`. Throws core::Error for a missing file and as
 // scene::ReadPrompt does, naming the prompt.

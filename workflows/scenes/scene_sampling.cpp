@@ -14,6 +14,7 @@
 #include "workflows/scenes/scene_assets.h"
 #include "workflows/scenes/scene_shapes.h"
 #include "workflows/scenes/scene_sheet.h"
+#include "workflows/scenes/scene_type_choice.h"
 #include "workflows/scenes/scene_weights.h"
 
 namespace simwright::workflows {
@@ -94,8 +95,8 @@ scene::SceneShard PartOf(const std::vector<Sampled>& scenes, const scene::Vocabu
 }
 
 fs::path SamplingWeights(const SceneSamplingRequest& request) {
-  if (request.weights.empty() == request.type.empty()) {
-    throw core::Error("give either weights or a scene type to sample from", "",
+  if (request.weights.empty() && request.type.empty()) {
+    throw core::Error("give weights or a scene type to sample from", "",
                       "name a weights file, or a --type with shipped weights");
   }
   return request.weights.empty() ? ShippedSceneWeights(request.type) : request.weights;
@@ -116,8 +117,9 @@ scene::ShardOrigin OriginOf(const SceneSamplingRequest& request, const fs::path&
 }
 
 // Loads the model and adds the requested assets to it.
-scene::SceneModel LoadWithAssets(const SceneSamplingRequest& request, const fs::path& weights) {
-  scene::SceneModel model = scene::SceneModel::Load(weights, request.text_encoder);
+scene::SceneModel LoadWithAssets(const SceneSamplingRequest& request, const fs::path& weights,
+                                 const std::string& type) {
+  scene::SceneModel model = scene::SceneModel::Load(weights, request.text_encoder, type);
   for (const auto& [category, folder] : request.added) {
     if (assets::FileSafeName(category) != category) {
       throw core::Error("a category must be a valid folder name", category);
@@ -132,12 +134,15 @@ scene::SceneModel LoadWithAssets(const SceneSamplingRequest& request, const fs::
 SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progress* progress) {
   if (wanted.count < 1) throw core::Error("at least 1 scene must be sampled", "--count");
   const fs::path weights = SamplingWeights(wanted);
-  const scene::SceneModel model = LoadWithAssets(wanted, weights);
-  const scene::Vocabulary& vocabulary = model.metadata().vocabulary;
+  const scene::SceneModelMetadata metadata = scene::ReadSceneModelMetadata(weights);
   core::Findings findings;
   SceneSamplingRequest request = wanted;
-  const std::vector<scene::Prompt> prompts =
-      ReadPrompts(request.prompts, request.prompt_file, vocabulary, &findings);
+  const RequestedPrompts requested = ReadPromptsAndTypes(
+      request.prompts, request.prompt_file, metadata.vocabulary, metadata.TypeNames(), &findings);
+  const std::vector<scene::Prompt>& prompts = requested.prompts;
+  const scene::SceneModel model = LoadWithAssets(
+      request, weights, ChooseSceneType(metadata, request.type, requested, &findings));
+  const scene::Vocabulary& vocabulary = model.metadata().vocabulary;
   request.sampling.prompts = TextsOf(prompts);
   core::StagedFolder staged(request.output, request.force);
   const scene::AssetSet asset_set =

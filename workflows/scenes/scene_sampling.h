@@ -18,7 +18,8 @@ inline constexpr double kSampleLowering = 0.25;
 
 struct SceneSamplingRequest {
   std::filesystem::path weights;
-  std::string type;  // the scene type of the shipped weights, if `weights` is empty
+  // The scene type of the shipped weights, if `weights` is empty; else one of the model's.
+  std::string type;
   int count = 16;
   std::filesystem::path output;
   std::vector<std::filesystem::path> assets;  // searched in this order, then the library

@@ -102,11 +102,12 @@ std::vector<std::string> HeldOutPrompts(const scene::SceneDataset& data, int fir
   return prompts;
 }
 
-void Sample(const SceneEvaluationRequest& request, const fs::path& weights,
+void Sample(const SceneEvaluationRequest& request, const fs::path& weights, const std::string& type,
             const std::vector<fs::path>& assets, const std::vector<std::string>& prompts,
             const fs::path& output, core::Progress* progress) {
   SceneSamplingRequest sampling;
   sampling.weights = weights;
+  sampling.type = type;
   sampling.count = request.count;
   sampling.output = output;
   sampling.assets = assets;
@@ -116,6 +117,26 @@ void Sample(const SceneEvaluationRequest& request, const fs::path& weights,
   sampling.raw = true;
   sampling.force = true;
   SampleScenes(sampling, progress);
+}
+
+// Returns the metadata of a model; of several types that of request.type, or of the data's.
+scene::SceneModelMetadata EvaluatedMetadata(const SceneEvaluationRequest& request,
+                                            const fs::path& weights) {
+  const scene::SceneModelMetadata metadata = scene::ReadSceneModelMetadata(weights);
+  if (metadata.types.empty()) return metadata;
+  std::string type = request.type;
+  if (type.empty() && !request.data.empty()) {
+    type = scene::SceneDataset(request.data).vocabulary().type;
+  }
+  return metadata.OfType(type);
+}
+
+// Returns true if scenes of `one` can be compared with those of `other`: the same type, and no
+// category that `other` lacks. A model of several types has the categories of all.
+bool Comparable(const scene::Vocabulary& one, const scene::Vocabulary& other) {
+  return one.type == other.type &&
+         std::all_of(one.categories.begin(), one.categories.end(),
+                     [&](const std::string& category) { return other.ClassOf(category) >= 0; });
 }
 
 // Warns if the samples are not the model's raw output.
@@ -136,7 +157,7 @@ SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path&
                           core::Findings* findings, core::Progress* progress) {
   const fs::path weights = SetWeights(request);
   std::optional<scene::SceneModelMetadata> metadata;
-  if (!weights.empty()) metadata = scene::ReadSceneModelMetadata(weights);
+  if (!weights.empty()) metadata = EvaluatedMetadata(request, weights);
   std::optional<scene::SceneDataset> samples;
   if (!request.samples.empty()) samples.emplace(request.samples);
   SceneSets sets;
@@ -160,12 +181,13 @@ SceneSets GatherSceneSets(const SceneEvaluationRequest& request, const fs::path&
     if (request.prompted) {
       prompts = HeldOutPrompts(data, training, held_out, sets.asset_set.Sizes());
     }
-    Sample(request, weights, assets, prompts, folder / "samples", progress);
+    Sample(request, weights, type, assets, prompts, folder / "samples", progress);
     samples.emplace(folder / "samples");
   } else {
     WarnOfPhysics(*samples, request.samples, findings);
   }
-  if (!(data.vocabulary() == sets.vocabulary && samples->vocabulary() == sets.vocabulary)) {
+  if (!Comparable(data.vocabulary(), sets.vocabulary) ||
+      !Comparable(samples->vocabulary(), sets.vocabulary)) {
     throw core::Error("data, samples and model have different scene types or categories",
                       data_folder.string());
   }

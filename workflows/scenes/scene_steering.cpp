@@ -48,9 +48,6 @@ void ValidateSteering(const SceneSteeringRequest& request) {
   if (request.goal.count == 0 || request.goal.count < -1) {
     throw core::Error("at least 1 object must be added", "--count");
   }
-  if (!request.weights.empty() && !request.type.empty()) {
-    throw core::Error("give either a model or a scene type, not both", "--model, --type");
-  }
 }
 
 fs::path SteeringWeights(const SceneSteeringRequest& request, const SceneSource& source) {
@@ -109,7 +106,10 @@ class SceneSteering {
 
   scene::SceneModel LoadModel() {
     const StepTimer timer(&report_.model_seconds);
-    return scene::SceneModel::Load(weights_, request_.text_encoder);
+    const bool several = !scene::ReadSceneModelMetadata(weights_).types.empty();
+    std::string type = request_.type;
+    if (several && type.empty()) type = source_.type;
+    return scene::SceneModel::Load(weights_, request_.text_encoder, type);
   }
 
   std::vector<size_t> Unfinished() const {

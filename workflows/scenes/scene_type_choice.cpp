@@ -1,0 +1,61 @@
+#include "workflows/scenes/scene_type_choice.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "scene/prompt/object_names.h"
+#include "scene/prompt/scene_type_words.h"
+
+namespace simwright::workflows {
+namespace {
+
+// Returns the number of names in the prompts that objects of a scene type may have.
+int KnownNames(const scene::SceneModelType& type, const std::vector<scene::Prompt>& prompts) {
+  int known = 0;
+  for (const scene::Prompt& prompt : prompts) {
+    for (const scene::NamedCount& one : prompt.names) {
+      known += std::any_of(
+          type.categories.begin(), type.categories.end(),
+          [&](const std::string& category) { return scene::NameOfCategory(category) == one.name; });
+    }
+  }
+  return known;
+}
+
+}  // namespace
+
+std::string ChooseSceneType(const scene::SceneModelMetadata& metadata, const std::string& asked,
+                            const RequestedPrompts& prompts, core::Findings* findings) {
+  if (!asked.empty()) return metadata.OfType(asked).vocabulary.type;
+  if (metadata.types.empty()) return metadata.vocabulary.type;
+  std::string named;
+  for (const std::string& one : prompts.types) {
+    if (!named.empty() && !one.empty() && one != named) {
+      throw core::Error("the prompts name different scene types", named + ", " + one,
+                        "sample them one after the other");
+    }
+    if (!one.empty()) named = one;
+  }
+  if (!named.empty()) return named;
+  int most = 0;
+  for (const scene::SceneModelType& type : metadata.types) {
+    const int known = KnownNames(type, prompts.prompts);
+    if (known <= most) continue;
+    most = known;
+    named = type.name;
+  }
+  if (most == 0) {
+    std::string list;
+    for (const std::string& name : metadata.TypeNames()) list += (list.empty() ? "" : ", ") + name;
+    throw core::Error("the model has several scene types", list,
+                      "choose one: --type, or \"a " +
+                          scene::WordsOfSceneType(metadata.types.front().name) +
+                          " with ...\" in the prompt");
+  }
+  findings->push_back({"scene-type-guessed", core::Severity::kInfo, "prompt",
+                       "the scene type is chosen by the named objects: " + named +
+                           " (--type chooses another one)"});
+  return named;
+}
+
+}  // namespace simwright::workflows

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/finding.h"
+#include "scene/model/scene_model.h"
+#include "workflows/scenes/scene_prompts.h"
+
+namespace simwright::workflows {
+
+// Chooses the type of the scenes to sample from a model: `asked`, if it is not empty; else the one
+// that the prompts name, or, if none does, the one that knows most of the objects that they name,
+// with a finding. Throws core::Error for a type that the model does not have, prompts that name
+// different types, and if nothing decides for a model of several types.
+std::string ChooseSceneType(const scene::SceneModelMetadata& metadata, const std::string& asked,
+                            const RequestedPrompts& prompts, core::Findings* findings);
+
+}  // namespace simwright::workflows
