@@ -1,8 +1,9 @@
 // Measures projections that keep the relations of crowded scenes, by the number of initial
 // collisions: collisions left, relations that hold before and after, mean displacement and time on
-// one core, with the relations as constraints and without. Scenes are samples of a grammar whose
-// objects are displaced at random. A relation of each object to one of its neighbours is asked for:
-// it holds before the displacement, so that all can hold without collisions.
+// one core, with the relations as constraints and without. Scenes are samples of a grammar that
+// have settled in simulation, and whose objects are then displaced at random. A relation of each
+// object to one of its neighbours is asked for: it holds before the displacement, so that all can
+// hold without collisions.
 //   bench_kept_relations --type dimsum --assets out/dimsum/assets
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 
 #include "scene/asset_set/asset_set_folder.h"
 #include "scene/feasibility/depenetration.h"
+#include "scene/feasibility/feasible_scene.h"
 #include "scene/feasibility/narrow_phase.h"
 #include "scene/grammar/scene_sample.h"
 #include "scene/scene_types/scene_types.h"
@@ -25,7 +27,8 @@ using Clock = std::chrono::steady_clock;
 
 struct Arguments {
   std::string type = "dimsum", assets;
-  int count = 400;          // scenes
+  int count = 200;          // scenes
+  bool raw = false;         // without settling: samples of some grammars interpenetrate
   double shake = 0.06;      // m, largest standard deviation along each horizontal axis
   double colliding = 1e-3;  // m, depth from which two objects collide
   std::uint64_t seed = 1;
@@ -35,6 +38,7 @@ constexpr int kBuckets = 4, kBucketSize = 10;  // collisions
 
 struct Bucket {
   int scenes = 0, relations = 0, initial = 0, broken = 0, left = 0;
+  std::array<int, scene::kRelationCount> broken_by_relation{};
   double shift = 0.0;  // m, sum of the scenes' means
   std::vector<double> milliseconds;
 };
@@ -107,7 +111,9 @@ void MeasureScene(const std::vector<scene::ProjectedBody>& bodies,
   ++bucket->scenes;
   bucket->relations += static_cast<int>(relations.size());
   for (const scene::KeptRelation& one : relations) {
-    bucket->broken += !HoldsAfter(one, projection.shifts);
+    const bool holds = HoldsAfter(one, projection.shifts);
+    bucket->broken += !holds;
+    bucket->broken_by_relation[static_cast<size_t>(one.relation)] += !holds;
     bucket->initial += Holds(one.relation, one.subject_box, one.object_box);
   }
   bucket->left += Collisions(bodies, projection.shifts, std::min(colliding, 1e-4));
@@ -119,6 +125,16 @@ void MeasureScene(const std::vector<scene::ProjectedBody>& bodies,
   bucket->shift += shift / std::max(1.0, free);
 }
 
+// Returns sample k of the grammar, settled in simulation; empty if it is no valid scene.
+std::vector<scene::SceneObject> Sampled(const scene::Grammar& grammar,
+                                        const scene::AssetSet& asset_set,
+                                        const Arguments& arguments, core::Rng& rng) {
+  std::vector<scene::SceneObject> sample = scene::SampleGrammar(grammar, rng).objects;
+  if (arguments.raw) return sample;
+  scene::FeasibleScene feasible = MakeFeasible(sample, asset_set);
+  return feasible.valid ? std::move(feasible.objects) : std::vector<scene::SceneObject>();
+}
+
 void Measure(const Arguments& arguments) {
   const scene::SceneType& type = scene::SceneTypeNamed(arguments.type);
   const scene::AssetSet asset_set =
@@ -128,7 +144,8 @@ void Measure(const Arguments& arguments) {
   std::array<std::array<Bucket, kBuckets>, 2> table;
   for (int k = 0; k < arguments.count; ++k) {
     core::Rng rng = core::StreamRng(arguments.seed, static_cast<std::uint64_t>(k));
-    const std::vector<scene::SceneObject> sample = scene::SampleGrammar(grammar, rng).objects;
+    const std::vector<scene::SceneObject> sample = Sampled(grammar, asset_set, arguments, rng);
+    if (sample.empty()) continue;
     const std::vector<scene::SceneObject> objects =
         Displaced(sample, core::Uniform(rng) * arguments.shake, rng);
     std::vector<scene::ProjectedBody> bodies;
@@ -160,6 +177,14 @@ void Measure(const Arguments& arguments) {
           100.0 - 100.0 * bucket.broken / std::max(1, bucket.relations),
           static_cast<double>(bucket.left) / bucket.scenes, 1e3 * bucket.shift / bucket.scenes,
           bucket.milliseconds[bucket.milliseconds.size() / 2], bucket.milliseconds.back());
+      if (!constrained || bucket.broken == 0) continue;
+      std::printf("             not kept:");
+      for (size_t k = 0; k < bucket.broken_by_relation.size(); ++k) {
+        if (bucket.broken_by_relation[k] == 0) continue;
+        std::printf(" %s %d", scene::RelationText(static_cast<scene::Relation>(k)),
+                    bucket.broken_by_relation[k]);
+      }
+      std::printf("\n");
     }
   }
 }
@@ -175,6 +200,7 @@ int main(int argc, char** argv) {
   app.add_option("--count", arguments.count, "Number of scenes")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  app.add_flag("--raw", arguments.raw, "Displace samples that have not settled");
   app.add_option("--shake", arguments.shake,
                  "Largest standard deviation of the displacement along each horizontal axis, m; "
                  "a tenth of it in height")

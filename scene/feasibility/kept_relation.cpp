@@ -11,7 +11,8 @@ using Eigen::Vector3d;
 
 constexpr double kRelationMargin = 1e-3;  // m, kept from the limits of Holds
 const double kFacingSlope = std::tan(kFacingAngle);
-constexpr int kCorners = 12;           // of the polygon in a round footprint
+constexpr int kCorners = 12;  // of the polygon in a round footprint
+constexpr double kLeastCavityShare = 0.25;
 constexpr double kLeastCorner = 0.35;  // rad, of the direction to a corner of the box of nearness
 
 // Returns the horizontal axis, with its sign, along which an offset is largest.
@@ -38,9 +39,9 @@ class RelationPlanes {
         On();
         break;
       case Relation::kInside:
-        Over(b_);
+        Over(b_, CavityShare(Relation::kInside));
         Require(-Vector3d::UnitZ(), kSunkDepth + kRelationMargin - a_.half.z() - b_.half.z());
-        Require(Vector3d::UnitZ(), a_.half.z() - b_.half.z() - kBaseTolerance + kRelationMargin);
+        AboveBase();
         break;
       case Relation::kAbove:
         Over(a_.half.head<2>().prod() > b_.half.head<2>().prod() ? a_ : b_);
@@ -79,9 +80,24 @@ class RelationPlanes {
         {subject_, object_, -direction / length, (least - direction.dot(start_)) / length, 0.0});
   }
 
-  // Keeps the centre of the other box over the footprint of `box`.
-  void Over(const PlacedBox& box) {
-    const Vector2d half = (box.half.head<2>().array() - kRelationMargin).max(kRelationMargin);
+  // Returns the share of b's footprint in which the centre of a has to be if a is in the cavity of
+  // b: there a fits without touching the rim; or as far out as it is already.
+  double CavityShare(Relation relation) const {
+    const Eigen::Array2d inner = b_.half.head<2>().array() - a_.half.head<2>().array();
+    const double fits =
+        std::clamp((inner / b_.half.head<2>().array()).minCoeff(), kLeastCavityShare, 1.0);
+    if (!Holds(relation, a_, b_)) return fits;
+    const Eigen::Array2d offset = start_.head<2>().array() / b_.half.head<2>().array();
+    return std::clamp(b_.round ? offset.matrix().norm() : offset.abs().maxCoeff(), fits, 1.0);
+  }
+
+  // Keeps the base of a above the base of b.
+  void AboveBase() { Require(Vector3d::UnitZ(), a_.half.z() - b_.half.z() + kRelationMargin); }
+
+  // Keeps the centre of the other box over that share of the footprint of `box`.
+  void Over(const PlacedBox& box, double share = 1.0) {
+    const Vector2d half =
+        (share * box.half.head<2>().array() - kRelationMargin).max(kRelationMargin);
     for (int i = 0; box.round && i < kCorners; ++i) {
       const double angle = 2.0 * M_PI * i / kCorners;
       Require({-std::cos(angle) / half.x(), -std::sin(angle) / half.y(), 0.0},
@@ -95,7 +111,9 @@ class RelationPlanes {
   }
 
   void On() {
-    Over(b_);
+    const bool in_cavity = SupportNearest(a_, b_) < b_.Top();
+    Over(b_, in_cavity ? CavityShare(Relation::kOn) : 1.0);
+    AboveBase();
     const double support = SupportNearest(a_, b_) - b_.center.z();
     Require(Vector3d::UnitZ(), a_.half.z() + support - kContactHeight + kRelationMargin);
     Require(-Vector3d::UnitZ(), kRelationMargin - kContactHeight - a_.half.z() - support);

@@ -31,12 +31,12 @@ bool IsOn(const PlacedBox& a, const PlacedBox& b) {
   const double base = a.Base();
   return (std::abs(base - b.Top()) <= kContactHeight ||
           std::abs(base - b.rest) <= kContactHeight) &&
-         IsOver(a, b);
+         base >= b.Base() && IsOver(a, b);
 }
 
 bool IsInside(const PlacedBox& a, const PlacedBox& b) {
   const double base = a.Base();
-  return base < b.Top() - kSunkDepth && base >= b.Base() - kBaseTolerance && IsOver(a, b);
+  return base < b.Top() - kSunkDepth && base >= b.Base() && IsOver(a, b);
 }
 
 bool IsAbove(const PlacedBox& a, const PlacedBox& b) {

@@ -41,11 +41,10 @@ std::optional<Relation> RelationNamed(std::string_view text);
 inline constexpr double kNearDistance = 0.2;
 
 // Further limits of relations, m (Holds).
-inline constexpr double kContactHeight = 0.02;   // of a base to what it rests on
-inline constexpr double kSunkDepth = 0.01;       // of an inner object's base below the rim
-inline constexpr double kBaseTolerance = 0.005;  // of an inner object's base
-inline constexpr double kLevelOverlap = 0.001;   // of two level boxes in height
-inline constexpr double kLeastOffset = 0.01;     // horizontal, with a direction
+inline constexpr double kContactHeight = 0.02;  // of a base to what it rests on
+inline constexpr double kSunkDepth = 0.01;      // of an inner object's base below the rim
+inline constexpr double kLevelOverlap = 0.001;  // of two level boxes in height
+inline constexpr double kLeastOffset = 0.01;    // horizontal, with a direction
 inline constexpr double kFacingAngle = 0.5235987755982988;  // rad, 30 degrees
 
 // The axis-aligned bounding box of an object in the world frame, m.
@@ -69,9 +68,9 @@ double BoxDistance(const PlacedBox& a, const PlacedBox& b);
 
 // Returns true if a is in this relation to b. All limits in m:
 //   on          the centre of a is over the footprint of b, and the base of a is within 0.02 of the
-//               top of b or of its rest height
+//               top of b or of its rest height, and not below the base of b
 //   inside      the centre of a is over the footprint of b, the base of a is more than 0.01 below
-//               the top of b and at most 0.005 below the base of b
+//               the top of b and not below the base of b
 //   above       the centre of a is over the footprint of b or the reverse, and the base of a is
 //               more than 0.02 above the top of b, but less than kNearDistance
 //   below       b is above a

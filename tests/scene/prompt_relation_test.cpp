@@ -79,6 +79,15 @@ TEST(PromptRelation, OnInsideAboveAndBelow) {
   EXPECT_FALSE(Holds(R::kAbove, RelationBox("steamer", 0, 0, 0.876 + 0.201), first));
 }
 
+TEST(PromptRelation, APlateUnderABowlIsNeitherOnNorInsideIt) {
+  using R = Relation;
+  const PlacedBox plate = RelationBox("plate", 0, 0, 0.75);
+  const PlacedBox bowl = RelationBox("bowl", 0, 0, 0.754);  // on the plate's floor
+  EXPECT_FALSE(Holds(R::kOn, plate, bowl));
+  EXPECT_FALSE(Holds(R::kInside, plate, bowl));
+  EXPECT_TRUE(Holds(R::kOn, bowl, plate));
+}
+
 TEST(PromptRelation, FacingFollowsTheXAxis) {
   const PlacedBox chair = RelationBox("chair", 0, 0, 0);
   const auto at = [](double degrees) {
