@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 // A corner of the Minkowski difference a - b, with the corners that it comes from.
 struct Corner {
-  Vector3d point, on_a, on_b;
+  Vector3d point = Vector3d::Zero(), on_a = Vector3d::Zero(), on_b = Vector3d::Zero();
 };
 
 // The cores of both shapes in the world frame; radii are added at the end.
@@ -374,6 +374,39 @@ ConvexDistance SignedDistance(const ConvexShape& a, const Eigen::Isometry3d& wor
 
 ConvexDistance SignedDistance(const ConvexShape& a, const ConvexShape& b) {
   return SignedDistance(a, Eigen::Isometry3d::Identity(), b, Eigen::Isometry3d::Identity());
+}
+
+bool AreApart(const ConvexShape& a, const ConvexShape& b, double margin) {
+  const double apart = margin + a.radius + b.radius;
+  Simplex simplex;
+  simplex.size = 1;
+  simplex.weight = {1.0, 0.0, 0.0, 0.0};
+  simplex.corner[0].point = a.vertices.front() - b.vertices.front();
+  Vector3d v = simplex.corner[0].point;
+  for (int step = 0; step < 100; ++step) {
+    const double distance = v.norm();  // an upper bound: v is a point of the difference
+    if (distance <= apart) return false;
+    Corner w;
+    w.point = Pair::Farthest(a.vertices, -v) - Pair::Farthest(b.vertices, v);
+    const double lower_bound = w.point.dot(v) / distance;
+    if (lower_bound > apart) return true;
+    if (distance - lower_bound <= 1e-9 * distance) return true;
+    for (int i = 0; i < simplex.size; ++i) {
+      if (w.point == simplex.corner[i].point) return true;
+    }
+    simplex.corner[simplex.size++] = w;
+    if (simplex.size == 2) {
+      ReduceSegment(&simplex);
+    } else if (simplex.size == 3) {
+      ReduceTriangle(&simplex);
+    } else if (ReduceTetrahedron(&simplex)) {
+      return false;
+    }
+    const Vector3d next = simplex.Sum(&Corner::point);
+    if (!(next.squaredNorm() < v.squaredNorm())) return true;
+    v = next;
+  }
+  return true;
 }
 
 ConvexDistance SignedDistanceToParts(const std::vector<core::TriangleMesh>& parts,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "manipulation/interaction.h"
+#include "manipulation/path_checker.h"
 
 namespace simwright::manipulation {
 
@@ -14,7 +15,7 @@ enum class Fingers { kCount, kIgnored };
 // A collision checker for the robot, fingers open, against the placed objects and the floor, for
 // one scene state. It samples the surface of each link every few centimetres. Constant except for
 // the payload.
-class CollisionChecker {
+class CollisionChecker : public PathChecker {
  public:
   // Ignores the object `held` (-1: none). All arguments must outlive this.
   CollisionChecker(const PlanningArm& context, const Interaction& interaction,
@@ -26,6 +27,9 @@ class CollisionChecker {
 
   bool IsCollisionFree(const robot::JointVector& arm,
                        Fingers fingers = Fingers::kCount) const;  // (J)
+  bool IsConfigurationFree(const robot::JointVector& arm) const override {
+    return IsCollisionFree(arm);
+  }
   // Sets the surface points (m, tool frame) of the payload, which IsPathCollisionFree also checks
   // from then on. Initially there is no payload.
   void SetPayload(SurfacePoints carried) { carried_ = std::move(carried); }
@@ -35,7 +39,8 @@ class CollisionChecker {
   void SetClearance(double margin, std::vector<robot::JointVector> ends);
   // Returns true if the arm and its payload are collision-free along the straight joint-space
   // segment between two configurations (J), and at the second one.
-  bool IsPathCollisionFree(const robot::JointVector& from, const robot::JointVector& to) const;
+  bool IsPathCollisionFree(const robot::JointVector& from,
+                           const robot::JointVector& to) const override;
 
  private:
   struct Obstacle {

@@ -8,7 +8,6 @@
 namespace simwright::manipulation {
 namespace {
 
-constexpr int kRounds = 600;        // each extends one tree by at least one node
 constexpr double kStep = 0.35;      // rad or m of any joint per extension
 constexpr double kBaseRange = 0.4;  // m about both ends in which a base is sampled
 constexpr double kMetre = 3.0;      // rad that a metre counts as
@@ -47,7 +46,7 @@ int Nearest(const robot::Arm& arm, const Tree& tree, const robot::JointVector& t
 enum class Extension { kTrapped, kAdvanced, kReached };
 
 // Extends the tree by one step from its nearest configuration towards `to`.
-Extension RrtConnectExtend(const robot::Arm& arm, const CollisionChecker& clearance,
+Extension RrtConnectExtend(const robot::Arm& arm, const PathChecker& clearance,
                            const robot::JointVector& to, Tree* tree) {
   const int nearest = Nearest(arm, *tree, to);
   const robot::JointVector from = (*tree)[static_cast<size_t>(nearest)].configuration;
@@ -88,7 +87,7 @@ JointPath PathFromRoot(const Tree& tree) {
 }
 
 // Returns the waypoints between the ends of `path` that are needed after shortcutting.
-JointPath Shortcut(const CollisionChecker& clearance, const JointPath& path) {
+JointPath Shortcut(const PathChecker& clearance, const JointPath& path) {
   JointPath kept;
   size_t at = 0;
   while (at + 1 < path.size()) {
@@ -102,13 +101,13 @@ JointPath Shortcut(const CollisionChecker& clearance, const JointPath& path) {
 
 }  // namespace
 
-std::optional<JointPath> PlanRrtConnect(const robot::Arm& arm, const CollisionChecker& clearance,
+std::optional<JointPath> PlanRrtConnect(const robot::Arm& arm, const PathChecker& clearance,
                                         const robot::JointVector& from,
-                                        const robot::JointVector& to) {
-  if (!clearance.IsCollisionFree(to)) return std::nullopt;
+                                        const robot::JointVector& to, int rounds) {
+  if (!clearance.IsConfigurationFree(to)) return std::nullopt;
   core::Rng rng = core::StreamRng(0, 0);
   Tree trees[2] = {{{from, -1}}, {{to, -1}}};
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     Tree& extended = trees[round % 2];
     Tree& other = trees[1 - round % 2];
     if (RrtConnectExtend(arm, clearance, SampleConfiguration(arm, from, to, rng), &extended) ==
