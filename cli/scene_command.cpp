@@ -4,6 +4,7 @@
 #include "cli/category_folders.h"
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "cli/scene_certify_command.h"
 #include "cli/scene_export_command.h"
 #include "cli/scene_model_commands.h"
 #include "cli/scene_posttrain_command.h"
@@ -99,6 +100,7 @@ void AddScene(CLI::App* app, CommonOptions* common, Run* run) {
   AddSceneComplete(scene, common, run);
   AddSceneRearrange(scene, common, run);
   AddScenePosttrain(scene, common, run);
+  AddSceneCertify(scene, common, run);
   AddSceneEvaluate(scene, common, run);
   AddSceneFeatures(scene, common, run);
   AddSceneExport(scene, common, run);

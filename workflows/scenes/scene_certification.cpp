@@ -1,0 +1,300 @@
+#include "workflows/scenes/scene_certification.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "certificate/robot_base.h"
+#include "certificate/scene_bodies.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "robot/panda_model.h"
+#include "scene/asset_set/asset_set_folder.h"
+#include "scene/dataset/vocabulary.h"
+#include "scene/prompt/object_names.h"
+#include "scene/prompt/relation.h"
+#include "scene/scene_types/scene_types.h"
+#include "workflows/scenes/certificate_picture.h"
+#include "workflows/scenes/certify_task.h"
+#include "workflows/scenes/scene_source.h"
+
+namespace simwright::workflows {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr size_t kPicturedScenes = 6;
+
+double SecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Returns the categories that are furniture in any scene type.
+std::set<std::string> FurnitureCategories() {
+  std::set<std::string> furniture;
+  for (const scene::SceneType& type : scene::SceneTypes()) {
+    const scene::Vocabulary vocabulary =
+        scene::VocabularyOf(type.make(scene::DefaultCategorySizes()));
+    for (size_t c = 0; c < vocabulary.categories.size(); ++c) {
+      if (vocabulary.welded[c]) furniture.insert(vocabulary.categories[c]);
+    }
+  }
+  return furniture;
+}
+
+// The scenes of a source with their assets.
+class CertificationScenes {
+ public:
+  CertificationScenes(const SceneCertificationRequest& request)
+      : source_(ReadSceneSource(request.scene, request.scenes, request.assets)) {
+    const std::set<std::string> furniture = FurnitureCategories();
+    scene::CategoryFolders folders;
+    std::map<fs::path, std::string> keys;  // by asset folder
+    for (const SourceScene& one : source_.scenes) {
+      std::vector<scene::SceneObject>& objects = objects_.emplace_back();
+      std::vector<std::string>& names = names_.emplace_back();
+      for (const SourceObject& given : one.objects) {
+        std::string& key = keys[given.asset];
+        if (key.empty()) key = KeyOf(given, folders);
+        folders[key] = given.asset;
+        scene::SceneObject object;
+        object.category = key;
+        object.world_from_object = given.world_from_object;
+        object.welded = given.welded.value_or(furniture.count(key) > 0);
+        objects.push_back(object);
+        names.push_back(given.name);
+      }
+    }
+    assets_ = scene::ReadAssetSet(folders);
+    bodies_ = std::make_unique<certificate::SceneBodies>(assets_);
+  }
+
+  size_t size() const { return source_.scenes.size(); }
+  const std::string& Name(size_t i) const { return source_.scenes[i].name; }
+  const std::vector<scene::SceneObject>& Objects(size_t i) const { return objects_[i]; }
+  const scene::AssetSet& assets() const { return assets_; }
+  certificate::PlacedScene Placed(size_t i) const {
+    return bodies_->SceneOf(objects_[i], names_[i]);
+  }
+
+  // Returns the names of the free objects of all scenes, sorted.
+  std::vector<std::string> FreeNames() const {
+    std::set<std::string> names;
+    for (const auto& objects : objects_) {
+      for (const scene::SceneObject& object : objects) {
+        if (!object.welded) names.insert(scene::NameOfCategory(object.category));
+      }
+    }
+    return {names.begin(), names.end()};
+  }
+
+  // Returns the free objects of scene `i` that a reference may mean.
+  std::vector<int> Meant(size_t i, const scene::ObjectReference& reference) const {
+    std::vector<int> indices;
+    std::vector<scene::PlacedBox> boxes;
+    const scene::CategorySizes sizes = assets_.Sizes();
+    for (size_t k = 0; k < objects_[i].size(); ++k) {
+      const scene::SceneObject& object = objects_[i][k];
+      if (object.welded || scene::NameOfCategory(object.category) != reference.name) continue;
+      indices.push_back(static_cast<int>(k));
+      boxes.push_back(scene::BoxOf(sizes.at(object.category), object.world_from_object));
+    }
+    if (reference.ordinal == 0) return indices;
+    std::vector<const scene::PlacedBox*> pointers;
+    for (const scene::PlacedBox& box : boxes) pointers.push_back(&box);
+    const std::vector<int> order = scene::OrdinalOrder(pointers);
+    const auto wanted = static_cast<size_t>(reference.ordinal) - 1;
+    if (wanted >= order.size()) return {};
+    return {indices[static_cast<size_t>(order[wanted])]};
+  }
+
+ private:
+  static std::string KeyOf(const SourceObject& object, const scene::CategoryFolders& folders) {
+    const std::string base = object.slot.empty() ? object.asset.filename().string() : object.slot;
+    std::string key = base;
+    for (int i = 2; folders.count(key) > 0; ++i) key = base + "-" + std::to_string(i);
+    return key;
+  }
+
+  SceneSource source_;
+  std::vector<std::vector<scene::SceneObject>> objects_;  // by scene
+  std::vector<std::vector<std::string>> names_;
+  scene::AssetSet assets_;
+  std::unique_ptr<certificate::SceneBodies> bodies_;
+};
+
+// The places of the robot, one for each piece of furniture at a pose.
+class RobotBases {
+ public:
+  RobotBases(const certificate::Planner& planner, const std::optional<Eigen::Vector4d>& given) {
+    planner_ = &planner;
+    if (!given) return;
+    given_.emplace(Eigen::Translation3d(given->head<3>()) *
+                   Eigen::AngleAxisd((*given)[3], Eigen::Vector3d::UnitZ()));
+  }
+
+  // Returns the base for working at `support` (-1: none). Not thread-safe.
+  Eigen::Isometry3d For(const certificate::PlacedScene& scene, int support) {
+    if (given_) return *given_;
+    if (support < 0) return Eigen::Isometry3d::Identity();
+    const certificate::PlacedBody& body = scene.bodies[static_cast<size_t>(support)];
+    for (const auto& [model, pose, base] : known_) {
+      if (model == body.model && pose.isApprox(body.world_from_body, 1e-9)) return base;
+    }
+    const certificate::RobotBase chosen =
+        certificate::ChooseRobotBase(*planner_, scene, support);
+    known_.emplace_back(body.model, body.world_from_body, chosen.world_from_robot);
+    return chosen.world_from_robot;
+  }
+
+ private:
+  const certificate::Planner* planner_;
+  std::optional<Eigen::Isometry3d> given_;
+  std::vector<std::tuple<std::shared_ptr<const certificate::BodyModel>, Eigen::Isometry3d,
+                         Eigen::Isometry3d>>
+      known_;
+};
+
+void ValidateCertification(const SceneCertificationRequest& request) {
+  if (request.candidates < 1 || request.candidates > 10000) {
+    throw core::Error("the number of candidates must be 1 to 10000", "--candidates");
+  }
+  if (request.base && !request.base->allFinite()) {
+    throw core::Error("a number of the base is not finite", "--base");
+  }
+}
+
+// Returns the goals of a task for each object that it may mean.
+std::vector<certificate::TargetTask> TargetsOf(const CertificationScenes& scenes, size_t index,
+                                               const CertifyTask& task,
+                                               const certificate::PlacedScene& scene,
+                                               RobotBases* bases) {
+  std::vector<certificate::TargetTask> targets;
+  for (const int object : scenes.Meant(index, task.object)) {
+    certificate::TargetTask target;
+    target.target = object;
+    target.world_from_robot = bases->For(scene, certificate::SupportOf(scene, object));
+    if (task.kind == CertifyKind::kLift) {
+      target.goal = certificate::LiftGoal();
+    } else if (task.kind == CertifyKind::kFront) {
+      target.goal = certificate::FrontGoal(scene, object);
+    } else {
+      for (const int other : scenes.Meant(index, task.other)) {
+        if (other == object) continue;
+        target.goal = certificate::BesideGoal(scene, object, other);
+        if (target.goal) break;
+      }
+    }
+    targets.push_back(std::move(target));
+  }
+  return targets;
+}
+
+// Requires that some scene has the objects of the task.
+void RequireObjects(const CertificationScenes& scenes, const scene::ObjectReference& reference,
+                    const fs::path& source) {
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    if (!scenes.Meant(i, reference).empty()) return;
+  }
+  std::string list;
+  for (const std::string& name : scenes.FreeNames()) list += (list.empty() ? "" : ", ") + name;
+  const std::string ordinal =
+      reference.ordinal > 0 ? scene::OrdinalWord(reference.ordinal) + " " : "";
+  throw core::Error("there is no " + ordinal + reference.name, source.string(),
+                    "the objects are " + list);
+}
+
+certificate::CertificateOptions OptionsOf(const SceneCertificationRequest& request) {
+  certificate::CertificateOptions options;
+  options.motion.candidates = request.candidates;
+  options.motion.seed = request.seed;
+  if (request.all_free) options.proof.free_distance = HUGE_VAL;
+  return options;
+}
+
+// Returns all names that an object may have: of the scenes, and of all scene types.
+std::vector<std::string> KnownNames(const CertificationScenes& scenes) {
+  std::set<std::string> names;
+  for (const std::string& name : scenes.FreeNames()) names.insert(name);
+  for (const scene::SceneType& type : scene::SceneTypes()) {
+    for (const std::string& name : scene::NamesOfVocabulary(
+             scene::VocabularyOf(type.make(scene::DefaultCategorySizes())))) {
+      names.insert(name);
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+}  // namespace
+
+SceneCertificationReport CertifyScenes(const SceneCertificationRequest& request,
+                                       core::Progress* progress) {
+  const auto start = std::chrono::steady_clock::now();
+  ValidateCertification(request);
+  const CertificationScenes scenes(request);
+  SceneCertificationReport report;
+  report.output = request.output;
+  const CertifyTask task = ReadCertifyTask(request.task, KnownNames(scenes), &report.findings);
+  report.task = task.Text();
+  RequireObjects(scenes, task.object, request.scene);
+  if (task.kind == CertifyKind::kBeside) RequireObjects(scenes, task.other, request.scene);
+  core::StagedFolder staged(request.output, request.force);
+  const certificate::Planner planner(robot::Panda(false), {}, request.seed);
+  const certificate::CertificateOptions options = OptionsOf(request);
+  RobotBases bases(planner, request.base);
+  progress->Stage("placing the robot", static_cast<int>(scenes.size()));
+  std::vector<certificate::PlacedScene> placed(scenes.size());
+  std::vector<std::vector<certificate::TargetTask>> targets(scenes.size());
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    placed[i] = scenes.Placed(i);
+    targets[i] = TargetsOf(scenes, i, task, placed[i], &bases);
+    progress->Advance();
+  }
+  report.scenes.resize(scenes.size());
+  progress->Stage("certifying", static_cast<int>(scenes.size()));
+  core::ParallelFor(static_cast<int>(scenes.size()), [&](int job) {
+    const auto i = static_cast<size_t>(job);
+    CertifiedScene& one = report.scenes[i];
+    one.name = scenes.Name(i);
+    one.instances = static_cast<int>(targets[i].size());
+    if (!targets[i].empty()) {
+      const auto began = std::chrono::steady_clock::now();
+      fs::create_directories(staged.staging() / one.name);
+      const fs::path file = fs::path(one.name) / "trajectory.json";
+      one.certificate = certificate::Certify(
+          planner, placed[i], certificate::EasiestFirst(planner, placed[i], targets[i]), options,
+          staged.staging() / file);
+      one.seconds = SecondsSince(began);
+      const int target = one.certificate.target;
+      one.target = placed[i].bodies[static_cast<size_t>(target)].name;
+      for (const certificate::TargetTask& given : targets[i]) {
+        if (given.target == target) one.world_from_robot = given.world_from_robot;
+      }
+      if (one.certificate.solvable()) one.trajectory = file.string();
+      if (!one.certificate.solvable()) fs::remove_all(staged.staging() / one.name);
+    } else {
+      one.certificate.reason = "the scene has no such object";
+    }
+    progress->Advance();
+  });
+  if (request.pictures) {
+    std::vector<CertificateView> views;
+    for (size_t i = 0; i < scenes.size() && views.size() < kPicturedScenes; ++i) {
+      const CertifiedScene& one = report.scenes[i];
+      if (!one.certificate.solvable()) continue;
+      views.push_back({&scenes.Objects(i), &one.certificate.proof.moments, one.world_from_robot});
+    }
+    progress->Stage("rendering", static_cast<int>(views.size()));
+    WriteCertificateSheet(views, scenes.assets(), robot::Panda(false),
+                          staged.staging() / "certificates.png", progress);
+  }
+  report.seconds = SecondsSince(start);
+  core::WriteFile(staged.staging() / "certificate.json", CertificationJson(report));
+  progress->Finish();
+  staged.Commit();
+  return report;
+}
+
+}  // namespace simwright::workflows
