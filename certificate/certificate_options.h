@@ -17,7 +17,7 @@ struct CertificateOptions {
   bool diagnose = true;    // find out what blocks a target
   int single_blockers = 8;  // most objects that are removed one by one
   int blocker_pairs = 6;    // most pairs that are removed together
-  int most_removed = 6;     // most objects that are removed together
+  int most_removed = 10;     // most objects that are removed together
 
   bool IsValid(std::string* error) const;
 };

@@ -102,7 +102,7 @@ class BlockerSearch {
     }
     std::stable_sort(suspects.begin(), suspects.end(),
                      [&](int a, int b) { return HitsOf(a) > HitsOf(b); });
-    if (!FindSingle(suspects) && !FindPair(suspects)) FindSet(suspects);
+    if (!FindSingle(suspects) && !FindPair(suspects)) FindSet();
     if (certificate_.blockers.empty()) {
       certificate_.reason = "blocked by several objects";
     } else {
@@ -110,6 +110,21 @@ class BlockerSearch {
     }
   }
   int HitsOf(int body) const { return certificate_.counts.hits[static_cast<size_t>(body)]; }
+
+  // Returns the body that is still there with the most hits in a search without `removed` (sorted);
+  // -1: none.
+  int WorstOf(const SearchCounts& counts, const std::vector<int>& removed) const {
+    int worst = -1, most = 0;
+    for (size_t i = 0, left = 0; i < scene_.bodies.size(); ++i) {
+      const int body = static_cast<int>(i);
+      if (std::binary_search(removed.begin(), removed.end(), body)) continue;
+      const int hits = counts.hits[left++];
+      if (scene_.bodies[i].fixed || body == task_.target || hits <= most) continue;
+      most = hits;
+      worst = body;
+    }
+    return worst;
+  }
 
   bool FindSingle(const std::vector<int>& suspects) {
     const size_t most = std::min(suspects.size(), static_cast<size_t>(options_.single_blockers));
@@ -128,20 +143,23 @@ class BlockerSearch {
     }
     return false;
   }
-  // Removes suspects until there is a plan, then gives back those that are not in the way.
-  bool FindSet(const std::vector<int>& suspects) {
+  // Removes the object with the most rejections until there is a plan, then gives back those that
+  // are not in the way.
+  bool FindSet() {
     std::vector<int> removed;
-    const size_t most = std::min(suspects.size(), static_cast<size_t>(options_.most_removed));
+    SearchCounts counts = certificate_.counts;
     bool found = false;
-    for (size_t i = 0; i < most && !found; ++i) {
-      removed.push_back(suspects[i]);
-      found = i >= 2 && HasPlan(removed);
+    for (int i = 0; i < options_.most_removed && !found; ++i) {
+      const int worst = WorstOf(counts, removed);
+      if (worst < 0) return false;
+      removed.insert(std::upper_bound(removed.begin(), removed.end(), worst), worst);
+      found = HasPlan(removed, &counts);
     }
     if (!found) return false;
     for (size_t i = 0; i + 1 < removed.size();) {
       std::vector<int> fewer = removed;
       fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
-      if (fewer.size() > 2 && HasPlan(fewer)) {
+      if (HasPlan(fewer)) {
         removed = fewer;
       } else {
         ++i;

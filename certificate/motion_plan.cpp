@@ -55,6 +55,8 @@ class MotionSearch::Impl {
         box_(BoundsOf(target_)) {
     obstacles_.Ignore(target, true);
     clearance_.CountHits(scene.bodies.size());
+    const int support = SupportOf(scene, target);
+    if (support >= 0) front_ = BoundsOf(scene.bodies[static_cast<size_t>(support)]).min().x();
     touching_.assign(scene.bodies.size(), 0);
     PlacedShape shape;
     for (const geometry::ConvexShape& part : target_.model->parts) {
@@ -135,6 +137,7 @@ class MotionSearch::Impl {
     clearance_.Hold(target_.model.get(), grasp.body_from_tool.inverse());
     if (!PlanToGoal(grasp, tool, q, rng, &after)) return std::nullopt;
     Release(grasp.leader);
+    ExtendOutOfFurniture(Shifted(tool, -options_.standoff * approach), &back);
     const JointVector home = planner_.robot().home();
     const auto reach = JointPathBetween(home, back.back());
     if (!reach) return std::nullopt;
@@ -143,6 +146,15 @@ class MotionSearch::Impl {
     plan.segments.push_back({Phase::kClose, {q}, gripper.closed});
     plan.segments.insert(plan.segments.end(), after.begin(), after.end());
     return plan;
+  }
+
+  // Extends the way back to in front of the furniture, along a straight line, if that is free: from
+  // there a joint path home is found soon.
+  void ExtendOutOfFurniture(const Isometry3d& pre_grasp, Waypoints* back) const {
+    const double out = front_ - pre_grasp.translation().x();
+    if (out >= 0.0) return;
+    Waypoints extended = *back;
+    if (FollowLine(pre_grasp, out * Vector3d::UnitX(), &extended)) *back = extended;
   }
 
   // Plans what follows the grasp, with the target in the gripper.
@@ -284,6 +296,7 @@ class MotionSearch::Impl {
   ArmClearance clearance_;
   const std::vector<Grasp>& grasps_;
   Eigen::AlignedBox3d box_;
+  double front_ = HUGE_VAL;     // m, x of the front of the furniture that supports the target
   std::vector<char> touching_;  // by body: touches the target at the start
   std::vector<size_t> order_;   // of grasps_
   size_t at_ = 0;

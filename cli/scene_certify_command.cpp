@@ -74,6 +74,8 @@ void AddSceneCertify(CLI::App* scene, CommonOptions* common, Run* run) {
       ->add_option("--candidates", request.candidates,
                    "Most grasps per object that are tried with the arm")
       ->capture_default_str();
+  command->add_flag("--every", request.every,
+                    "Certify each object that the task may mean, not only the easiest one");
   command->add_flag("--all-free", request.all_free,
                     "Let all objects move in the replays, also those far from the robot");
   command->add_flag("!--no-pictures", request.pictures, "Write no certificates.png");

@@ -12,10 +12,13 @@
 namespace simwright::workflows {
 namespace {
 
-constexpr int kPixels = 400;           // per side
-constexpr double kAzimuth = 4.1;       // rad: from behind the robot's right shoulder
-constexpr double kElevation = 0.45;    // rad
-constexpr double kFieldOfView = 0.5;   // rad
+constexpr int kPixels = 320;          // per side
+constexpr double kAzimuth = 4.1;      // rad: from behind the robot's right shoulder
+constexpr double kElevation = 0.45;   // rad
+constexpr double kFieldOfView = 0.5;  // rad
+constexpr double kArmHeight = 0.9;    // m above the base, which pictures show
+constexpr double kBehind = 0.2;       // m behind it
+constexpr float kOcclusionReach = 0.05f;
 
 core::Image PictureOf(const CertificateView& view, const certificate::ReplayMoment& moment,
                       const scene::AssetSet& asset_set, const RobotVisuals& visuals) {
@@ -29,8 +32,9 @@ core::Image PictureOf(const CertificateView& view, const certificate::ReplayMome
     }
   }
   visuals.Place(moment.arm, moment.leader, view.world_from_robot, &scene);
-  box.extend(view.world_from_robot.translation());
-  box.extend(view.world_from_robot.translation() + Eigen::Vector3d(0.0, 0.0, 0.7));
+  for (const double up : {0.0, kArmHeight}) {
+    box.extend(view.world_from_robot * Eigen::Vector3d(-kBehind, 0.0, up));
+  }
   scene.Commit();
   const double distance = 0.5 * box.diagonal().norm() / std::sin(0.5 * kFieldOfView);
   const core::Camera camera = core::OrbitCamera(box.center(), 0.9 * distance, kElevation, kAzimuth,
@@ -38,7 +42,8 @@ core::Image PictureOf(const CertificateView& view, const certificate::ReplayMome
   render::ForwardOptions options;
   options.shaded = true;
   options.samples_per_side = 2;
-  options.occlusion_rays = 8;
+  options.occlusion_rays = 6;
+  options.occlusion_reach = kOcclusionReach;
   return render::RenderForward(scene, camera, options).color;
 }
 

@@ -25,7 +25,7 @@ namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr size_t kPicturedScenes = 6;
+constexpr size_t kPicturedScenes = 4;
 
 double SecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -227,74 +227,120 @@ std::vector<std::string> KnownNames(const CertificationScenes& scenes) {
   return {names.begin(), names.end()};
 }
 
+// Certifies the task in all scenes, one job for each scene or object.
+class Certification {
+ public:
+  Certification(const SceneCertificationRequest& request, core::Progress* progress)
+      : request_(request), progress_(progress), scenes_(request) {
+    report_.output = request.output;
+    task_ = ReadCertifyTask(request.task, KnownNames(scenes_), &report_.findings);
+    report_.task = task_.Text();
+    RequireObjects(scenes_, task_.object, request.scene);
+    if (task_.kind == CertifyKind::kBeside) RequireObjects(scenes_, task_.other, request.scene);
+  }
+
+  SceneCertificationReport Run() {
+    core::StagedFolder staged(request_.output, request_.force);
+    const certificate::Planner planner(robot::Panda(false), {}, request_.seed);
+    PlaceRobot(planner);
+    const certificate::CertificateOptions options = OptionsOf(request_);
+    report_.scenes.resize(jobs_.size());
+    progress_->Stage("certifying", static_cast<int>(jobs_.size()));
+    core::ParallelFor(static_cast<int>(jobs_.size()), [&](int job) {
+      const auto j = static_cast<size_t>(job);
+      CertifyJob(planner, options, staged.staging(), jobs_[j], &report_.scenes[j]);
+      progress_->Advance();
+    });
+    if (request_.pictures) WritePictures(staged.staging());
+    report_.seconds = SecondsSince(start_);
+    core::WriteFile(staged.staging() / "certificate.json", CertificationJson(report_));
+    progress_->Finish();
+    staged.Commit();
+    return std::move(report_);
+  }
+
+ private:
+  struct Job {
+    size_t scene = 0;
+    std::vector<certificate::TargetTask> targets;
+  };
+
+  void PlaceRobot(const certificate::Planner& planner) {
+    RobotBases bases(planner, request_.base);
+    progress_->Stage("placing the robot", static_cast<int>(scenes_.size()));
+    for (size_t i = 0; i < scenes_.size(); ++i) {
+      placed_.push_back(scenes_.Placed(i));
+      auto targets = TargetsOf(scenes_, i, task_, placed_[i], &bases);
+      if (request_.every) {
+        for (certificate::TargetTask& target : targets) jobs_.push_back({i, {std::move(target)}});
+      } else {
+        jobs_.push_back({i, std::move(targets)});
+      }
+      progress_->Advance();
+    }
+  }
+
+  void CertifyJob(const certificate::Planner& planner,
+                  const certificate::CertificateOptions& options, const fs::path& folder,
+                  const Job& job, CertifiedScene* one) const {
+    one->name = scenes_.Name(job.scene);
+    one->instances = static_cast<int>(job.targets.size());
+    if (job.targets.empty()) {
+      one->certificate.reason = "the scene has no such object";
+      return;
+    }
+    const auto began = std::chrono::steady_clock::now();
+    const certificate::PlacedScene& scene = placed_[job.scene];
+    fs::path file = one->name;
+    if (request_.every) {
+      file /= scene.bodies[static_cast<size_t>(job.targets.front().target)].name;
+    }
+    fs::create_directories(folder / file);
+    one->certificate = certificate::Certify(
+        planner, scene, certificate::EasiestFirst(planner, scene, job.targets), options,
+        folder / file / "trajectory.json");
+    one->seconds = SecondsSince(began);
+    const int target = one->certificate.target;
+    one->target = scene.bodies[static_cast<size_t>(target)].name;
+    for (const certificate::TargetTask& given : job.targets) {
+      if (given.target == target) one->world_from_robot = given.world_from_robot;
+    }
+    if (one->certificate.solvable()) {
+      one->trajectory = (file / "trajectory.json").string();
+    } else {
+      fs::remove_all(folder / file);
+    }
+  }
+
+  void WritePictures(const fs::path& folder) const {
+    std::vector<CertificateView> views;
+    for (size_t j = 0; j < jobs_.size() && views.size() < kPicturedScenes; ++j) {
+      const CertifiedScene& one = report_.scenes[j];
+      if (!one.certificate.solvable()) continue;
+      views.push_back({&scenes_.Objects(jobs_[j].scene), &one.certificate.proof.moments,
+                       one.world_from_robot});
+    }
+    progress_->Stage("rendering", static_cast<int>(views.size()));
+    WriteCertificateSheet(views, scenes_.assets(), robot::Panda(false),
+                          folder / "certificates.png", progress_);
+  }
+
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const SceneCertificationRequest& request_;
+  core::Progress* progress_;
+  CertificationScenes scenes_;
+  CertifyTask task_;
+  SceneCertificationReport report_;
+  std::vector<certificate::PlacedScene> placed_;  // by scene
+  std::vector<Job> jobs_;
+};
+
 }  // namespace
 
 SceneCertificationReport CertifyScenes(const SceneCertificationRequest& request,
                                        core::Progress* progress) {
-  const auto start = std::chrono::steady_clock::now();
   ValidateCertification(request);
-  const CertificationScenes scenes(request);
-  SceneCertificationReport report;
-  report.output = request.output;
-  const CertifyTask task = ReadCertifyTask(request.task, KnownNames(scenes), &report.findings);
-  report.task = task.Text();
-  RequireObjects(scenes, task.object, request.scene);
-  if (task.kind == CertifyKind::kBeside) RequireObjects(scenes, task.other, request.scene);
-  core::StagedFolder staged(request.output, request.force);
-  const certificate::Planner planner(robot::Panda(false), {}, request.seed);
-  const certificate::CertificateOptions options = OptionsOf(request);
-  RobotBases bases(planner, request.base);
-  progress->Stage("placing the robot", static_cast<int>(scenes.size()));
-  std::vector<certificate::PlacedScene> placed(scenes.size());
-  std::vector<std::vector<certificate::TargetTask>> targets(scenes.size());
-  for (size_t i = 0; i < scenes.size(); ++i) {
-    placed[i] = scenes.Placed(i);
-    targets[i] = TargetsOf(scenes, i, task, placed[i], &bases);
-    progress->Advance();
-  }
-  report.scenes.resize(scenes.size());
-  progress->Stage("certifying", static_cast<int>(scenes.size()));
-  core::ParallelFor(static_cast<int>(scenes.size()), [&](int job) {
-    const auto i = static_cast<size_t>(job);
-    CertifiedScene& one = report.scenes[i];
-    one.name = scenes.Name(i);
-    one.instances = static_cast<int>(targets[i].size());
-    if (!targets[i].empty()) {
-      const auto began = std::chrono::steady_clock::now();
-      fs::create_directories(staged.staging() / one.name);
-      const fs::path file = fs::path(one.name) / "trajectory.json";
-      one.certificate = certificate::Certify(
-          planner, placed[i], certificate::EasiestFirst(planner, placed[i], targets[i]), options,
-          staged.staging() / file);
-      one.seconds = SecondsSince(began);
-      const int target = one.certificate.target;
-      one.target = placed[i].bodies[static_cast<size_t>(target)].name;
-      for (const certificate::TargetTask& given : targets[i]) {
-        if (given.target == target) one.world_from_robot = given.world_from_robot;
-      }
-      if (one.certificate.solvable()) one.trajectory = file.string();
-      if (!one.certificate.solvable()) fs::remove_all(staged.staging() / one.name);
-    } else {
-      one.certificate.reason = "the scene has no such object";
-    }
-    progress->Advance();
-  });
-  if (request.pictures) {
-    std::vector<CertificateView> views;
-    for (size_t i = 0; i < scenes.size() && views.size() < kPicturedScenes; ++i) {
-      const CertifiedScene& one = report.scenes[i];
-      if (!one.certificate.solvable()) continue;
-      views.push_back({&scenes.Objects(i), &one.certificate.proof.moments, one.world_from_robot});
-    }
-    progress->Stage("rendering", static_cast<int>(views.size()));
-    WriteCertificateSheet(views, scenes.assets(), robot::Panda(false),
-                          staged.staging() / "certificates.png", progress);
-  }
-  report.seconds = SecondsSince(start);
-  core::WriteFile(staged.staging() / "certificate.json", CertificationJson(report));
-  progress->Finish();
-  staged.Commit();
-  return report;
+  return Certification(request, progress).Run();
 }
 
 }  // namespace simwright::workflows

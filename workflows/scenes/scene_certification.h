@@ -19,6 +19,7 @@ struct SceneCertificationRequest {
   std::string task;                       // "bring the apple to the front"
   std::optional<Eigen::Vector4d> base;    // m and rad: x, y, z and yaw of the robot's base
   int candidates = 96;                    // most grasps per object that are tried with the arm
+  bool every = false;                     // certify each object that the task may mean by itself
   bool all_free = false;                  // no object stays fixed in the replays
   bool pictures = true;
   std::uint64_t seed = 1;
@@ -27,7 +28,7 @@ struct SceneCertificationRequest {
   bool force = false;  // replaces an existing output
 };
 
-// The certificate of one scene.
+// The certificate of one scene, or with `every` of one object in it.
 struct CertifiedScene {
   std::string name;    // of the source's scene
   std::string target;  // the object that is brought, or that was examined

@@ -152,7 +152,7 @@ std::string CertificationTable(const SceneCertificationReport& report) {
       }
     }
   }
-  std::snprintf(line, sizeof line, "%d of %d scenes are solvable (%.0f %%)\n",
+  std::snprintf(line, sizeof line, "%d of %d are solvable (%.0f %%)\n",
                 report.SolvableCount(), count, 100.0 * report.SolvableCount() / count);
   text += line;
   for (const auto& [reason, number] : reasons) {
@@ -167,7 +167,7 @@ std::string CertificationTable(const SceneCertificationReport& report) {
   }
   std::snprintf(line, sizeof line,
                 "%d of %d replays of planned trajectories succeed\n"
-                "%.2f s per scene in the median, %.1f s in total\n",
+                "%.2f s each in the median, %.1f s in total\n",
                 proved, plans, report.MedianSeconds(), report.seconds);
   return text + line;
 }
