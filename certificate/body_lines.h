@@ -37,7 +37,7 @@ class BodyLines {
  private:
   const BodyModel& body_;
   std::vector<manipulation::ConvexPart> parts_;
-  std::vector<double> areas_;                    // cumulative, m^2
+  std::vector<double> areas_;                   // cumulative, m^2
   std::vector<std::pair<int, int>> triangles_;  // part and triangle, by entry of `areas_`
 };
 

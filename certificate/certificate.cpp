@@ -102,9 +102,8 @@ bool CertificateOptions::IsValid(std::string* error) const {
 }
 
 std::string VerdictName(Verdict verdict) {
-  constexpr std::array kNames = {"solvable",       "unreachable", "no-collision-free-grasp",
-                                 "blocked",        "fails-in-simulation",
-                                 "no-free-place"};
+  constexpr std::array kNames = {"solvable", "unreachable",         "no-collision-free-grasp",
+                                 "blocked",  "fails-in-simulation", "no-free-place"};
   return kNames[static_cast<size_t>(verdict)];
 }
 

@@ -34,21 +34,22 @@ std::string VerdictName(Verdict verdict);  // "solvable", "unreachable", ...
 
 struct Certificate {
   Verdict verdict = Verdict::kNoPlace;
-  std::string reason;             // in words; empty if solvable
-  int target = -1;                // the body that is brought, or that was examined
+  std::string reason;              // in words; empty if solvable
+  int target = -1;                 // the body that is brought, or that was examined
   std::optional<MotionPlan> plan;  // the proved one, or the last one that failed
   std::vector<PhaseTime> phases;
-  Proof proof;                          // of `plan`
-  robot::JointTrajectory trajectory;    // the proved one, as read back from its file
-  SearchCounts counts;                  // of the target
-  int proofs = 0;                       // replays of plans of the target
-  std::vector<std::string> blockers;    // kBlocked: removing them opens a way
-  bool blockers_verified = false;       // the scene without them is certified, replay included
-  int searches = 0;                     // searches for plans, of all targets and diagnoses
+  Proof proof;                        // of `plan`
+  robot::JointTrajectory trajectory;  // the proved one, as read back from its file
+  SearchCounts counts;                // of the target
+  int proofs = 0;                     // replays of plans of the target
+  std::vector<std::string> blockers;  // kBlocked: removing them opens a way
+  bool blockers_verified = false;     // the scene without them is certified, replay included
+  int searches = 0;                   // searches for plans, of all targets and diagnoses
 
   bool solvable() const { return verdict == Verdict::kSolvable; }
-  // Returns the difficulty of a solvable task: the share of the target's grasps, those that fit into
-  // the gripper, that were rejected before the first that works, 0 to 1. 1 if it is not solvable.
+  // Returns the difficulty of a solvable task: the share of the target's grasps, those that fit
+  // into the gripper, that were rejected before the first that works, 0 to 1. 1 if it is not
+  // solvable.
   double Difficulty() const;
 };
 

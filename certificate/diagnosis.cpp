@@ -40,8 +40,9 @@ class BlockerSearch {
     }
     if (counts.grasps == 0) {
       certificate_.verdict = Verdict::kNoGrasp;
-      certificate_.reason = "no grasp: the object is wider than the gripper opens, or its sides are "
-                            "too steep to each other";
+      certificate_.reason =
+          "no grasp: the object is wider than the gripper opens, or its sides are "
+          "too steep to each other";
     } else if (counts.tried == 0) {
       certificate_.verdict = Verdict::kNoGrasp;
       certificate_.reason = "no collision-free grasp: furniture is in the way of the gripper";
@@ -74,8 +75,7 @@ class BlockerSearch {
   bool IsProvedWithout(const std::vector<int>& removed) {
     TargetTask task = task_;
     task.target = TargetWithout(removed);
-    const Certificate proved =
-        CertifyTarget(planner_, scene_.Without(removed), task, options_, {});
+    const Certificate proved = CertifyTarget(planner_, scene_.Without(removed), task, options_, {});
     certificate_.searches += proved.searches;
     return proved.solvable();
   }

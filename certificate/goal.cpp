@@ -13,14 +13,14 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kBoardGap = 0.1;        // m between two boards of a shelf
-constexpr double kBoardShare = 0.5;      // of the footprint that a board covers
-constexpr double kFrontShare = 0.25;     // of the depth of a table
-constexpr double kPlaceStep = 0.04;      // m between places
+constexpr double kBoardGap = 0.1;         // m between two boards of a shelf
+constexpr double kBoardShare = 0.5;       // of the footprint that a board covers
+constexpr double kFrontShare = 0.25;      // of the depth of a table
+constexpr double kPlaceStep = 0.04;       // m between places
 constexpr double kPlaceClearance = 0.02;  // m between a place and other objects
 constexpr double kReleaseHeight = 0.002;  // m above the surface
-constexpr double kRim = 0.01;            // m that a place keeps from the edge of its surface
-constexpr int kDirections = 16;          // of places beside an object
+constexpr double kRim = 0.01;             // m that a place keeps from the edge of its surface
+constexpr int kDirections = 16;           // of places beside an object
 constexpr size_t kMostPlaces = 12;
 
 std::vector<Eigen::AlignedBox3d> PartBoxes(const PlacedBody& body) {
@@ -54,8 +54,8 @@ class Places {
     if (goal->places.size() >= kMostPlaces) return;
     const Vector3d half = 0.5 * box_.sizes();
     double top = 0.0;
-    for (const auto& [dx, dy] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0},
-                                 {0.0, -1.0}}) {
+    for (const auto& [dx, dy] :
+         {std::pair{0.0, 0.0}, {1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}) {
       const double height =
           SurfaceAt(x + dx * (half.x() + kRim), y + dy * (half.y() + kRim), below);
       if (dx == 0.0 && dy == 0.0) top = height;
@@ -154,9 +154,8 @@ std::optional<Goal> FrontGoal(const PlacedScene& scene, int target) {
     std::vector<double> across;
     for (double y = box.min().y(); y <= box.max().y(); y += kPlaceStep) across.push_back(y);
     const double own = places.box().center().y();
-    std::sort(across.begin(), across.end(), [&](double a, double b) {
-      return std::abs(a - own) < std::abs(b - own);
-    });
+    std::sort(across.begin(), across.end(),
+              [&](double a, double b) { return std::abs(a - own) < std::abs(b - own); });
     for (const double y : across) places.Try(x, y, below, &goal);
   }
   if (goal.places.empty()) return std::nullopt;
@@ -170,8 +169,8 @@ std::optional<Goal> BesideGoal(const PlacedScene& scene, int target, int other) 
   goal.kind = GoalKind::kPlace;
   const Places places(scene, target, support);
   const Eigen::AlignedBox3d box = BoundsOf(scene.bodies[static_cast<size_t>(other)]);
-  const double reach = 0.5 * (box.sizes().head<2>().maxCoeff() +
-                              places.box().sizes().head<2>().maxCoeff());
+  const double reach =
+      0.5 * (box.sizes().head<2>().maxCoeff() + places.box().sizes().head<2>().maxCoeff());
   for (const double gap : {kPlaceClearance, 2.0 * kPlaceClearance}) {
     std::vector<Vector3d> directions;
     for (int i = 0; i < kDirections; ++i) {

@@ -20,8 +20,8 @@ enum class GoalKind {
 // The state of the target at the end of a task.
 struct Goal {
   GoalKind kind = GoalKind::kLift;
-  double lift = 0.05;   // m, kLift: the lowest point is at least this much higher than at the start
-  double front = 0.0;   // m, kInFront: x of the furniture's front; the target's box is at lower x
+  double lift = 0.05;  // m, kLift: the lowest point is at least this much higher than at the start
+  double front = 0.0;  // m, kInFront: x of the furniture's front; the target's box is at lower x
   std::vector<Eigen::Isometry3d> places;  // kPlace: world_from_body, preferred first
   double place_tolerance = 0.03;          // m from one of the places
   double place_tilt = 0.26;               // rad of its vertical axis from that at the place

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "certificate/arm_clearance.h"
 #include "certificate/body_lines.h"
+#include "certificate/robot_clearance.h"
 
 namespace simwright::certificate {
 namespace {
@@ -14,8 +14,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kTouching = 5e-4;               // m between the open gripper and the body
-constexpr double kBackedOff = 0.03;              // m behind the grasp, checked too
+constexpr double kTouching = 5e-4;                // m between the open gripper and the body
+constexpr double kBackedOff = 0.03;               // m behind the grasp, checked too
 constexpr std::array kHeights = {0.5, 0.3, 0.7};  // of the body's height, for horizontal axes
 
 // The offsets that are tried for a closing axis and an approach, in this order, until the palm is
@@ -24,8 +24,8 @@ constexpr std::array kHeights = {0.5, 0.3, 0.7};  // of the body's height, for h
 struct Offset {
   double line = 0.0, tip = 0.0;
 };
-constexpr std::array<Offset, 4> kOffsets = {{{0.0, 0.0}, {0.0, 0.006}, {0.006, 0.006},
-                                             {0.012, 0.006}}};
+constexpr std::array<Offset, 4> kOffsets = {
+    {{0.0, 0.0}, {0.0, 0.006}, {0.006, 0.006}, {0.012, 0.006}}};
 
 // A closing axis: a line through the body.
 struct ClosingAxis {
@@ -124,8 +124,7 @@ class GraspSampler {
       grasp.leader = gripper.closed + (gripper.open - gripper.closed) *
                                           std::min(1.0, opening / gripper.MaxOpening());
       const Vector3d from_center = between - body_.center_of_mass;
-      grasp.center_offset =
-          (from_center - from_center.dot(axis.direction) * axis.direction).norm();
+      grasp.center_offset = (from_center - from_center.dot(axis.direction) * axis.direction).norm();
       if (TouchesOpen(grasp)) continue;
       grasps->push_back(grasp);
       return;
@@ -149,7 +148,7 @@ class GraspSampler {
   BodyLines lines_;
   RobotShapes shapes_;
   Obstacles obstacles_;
-  ArmClearance clearance_;
+  RobotClearance clearance_;
   double least_cosine_ = 1.0;
 };
 

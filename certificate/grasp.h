@@ -32,9 +32,10 @@ struct GraspOptions {
 };
 
 // Returns grasps of a body: both contacts lie within the friction cone of the pair of body and
-// fingertip, the gripper opens wide enough, and it does not touch the body before it closes. Closing
-// axes are horizontal lines through the body's middle at several heights, and the normals at random
-// points of its surface. Deterministic in `seed`. Empty if the body is wider than the gripper.
+// fingertip, the gripper opens wide enough, and it does not touch the body before it closes.
+// Closing axes are horizontal lines through the body's middle at several heights, and the normals
+// at random points of its surface. Deterministic in `seed`. Empty if the body is wider than the
+// gripper.
 std::vector<Grasp> SampleGrasps(const BodyModel& body, const robot::RobotModel& robot,
                                 std::uint64_t seed, const GraspOptions& options = {});
 

@@ -12,12 +12,12 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kSteepestUpward = 0.15;   // of an approach direction, upwards
-constexpr double kAwayFromRobot = -0.2;    // least component of an approach away from the robot
-constexpr double kShoulder = 0.333;        // m above the base, about which an arm reaches
-constexpr double kFromAbove = 0.35;        // rad by which straight reaching is preferred
-constexpr double kLevelAxis = 0.5;         // rad of cost for a vertical closing axis
-constexpr double kOffsetCost = 15.0;       // rad of cost per m between grasp and centre of mass
+constexpr double kSteepestUpward = 0.15;  // of an approach direction, upwards
+constexpr double kAwayFromRobot = -0.2;   // least component of an approach away from the robot
+constexpr double kShoulder = 0.333;       // m above the base, about which an arm reaches
+constexpr double kFromAbove = 0.35;       // rad by which straight reaching is preferred
+constexpr double kLevelAxis = 0.5;        // rad of cost for a vertical closing axis
+constexpr double kOffsetCost = 15.0;      // rad of cost per m between grasp and centre of mass
 constexpr double kBin = std::numbers::pi / 8.0;  // rad of the directions that alternate
 constexpr std::array kApproachShares = {0.0, 0.15, 0.35, 0.6, 1.0};  // of the standoff
 
@@ -30,8 +30,7 @@ double CostOf(const Grasp& grasp, const Isometry3d& world_from_tool, const Vecto
   const Vector3d approach = world_from_tool.linear().col(2);
   const double straight = AngleBetween(approach, reach);
   const double above = kFromAbove + AngleBetween(approach, -Vector3d::UnitZ());
-  return std::min(straight, above) +
-         kLevelAxis * std::abs(world_from_tool.linear().col(1).z()) +
+  return std::min(straight, above) + kLevelAxis * std::abs(world_from_tool.linear().col(1).z()) +
          kOffsetCost * grasp.center_offset;
 }
 
@@ -39,7 +38,7 @@ double CostOf(const Grasp& grasp, const Isometry3d& world_from_tool, const Vecto
 
 std::vector<size_t> OrderGrasps(const std::vector<Grasp>& grasps, const PlacedBody& target,
                                 const Isometry3d& world_from_robot, double standoff,
-                                ArmClearance* clearance, SearchCounts* counts) {
+                                RobotClearance* clearance, SearchCounts* counts) {
   const Vector3d shoulder = world_from_robot * Vector3d(0.0, 0.0, kShoulder);
   const Vector3d reach =
       (target.world_from_body * target.model->center_of_mass - shoulder).normalized();
@@ -70,11 +69,12 @@ std::vector<size_t> OrderGrasps(const std::vector<Grasp>& grasps, const PlacedBo
       continue;
     }
     const double pitch = std::asin(std::clamp(-approach.z(), -1.0, 1.0));
-    const double yaw = std::atan2(approach.dot(Vector3d::UnitZ().cross(ahead)),
-                                  approach.dot(ahead));
-    free.push_back({CostOf(grasps[i], tool, reach), i,
-                    {static_cast<int>(std::lround(pitch / kBin)),
-                     static_cast<int>(std::lround(yaw / kBin))}});
+    const double yaw =
+        std::atan2(approach.dot(Vector3d::UnitZ().cross(ahead)), approach.dot(ahead));
+    free.push_back(
+        {CostOf(grasps[i], tool, reach),
+         i,
+         {static_cast<int>(std::lround(pitch / kBin)), static_cast<int>(std::lround(yaw / kBin))}});
   }
   std::stable_sort(free.begin(), free.end(),
                    [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });

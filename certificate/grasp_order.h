@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "certificate/arm_clearance.h"
 #include "certificate/motion_plan.h"
+#include "certificate/robot_clearance.h"
 
 namespace simwright::certificate {
 
@@ -13,6 +13,6 @@ namespace simwright::certificate {
 // `clearance` ignores the target and counts the hits.
 std::vector<size_t> OrderGrasps(const std::vector<Grasp>& grasps, const PlacedBody& target,
                                 const Eigen::Isometry3d& world_from_robot, double standoff,
-                                ArmClearance* clearance, SearchCounts* counts);
+                                RobotClearance* clearance, SearchCounts* counts);
 
 }  // namespace simwright::certificate

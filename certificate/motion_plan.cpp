@@ -17,15 +17,15 @@ using Eigen::Vector3d;
 using robot::JointVector;
 using Waypoints = std::vector<JointVector>;
 
-constexpr double kLineStep = 0.008;      // m between configurations on a straight line
-constexpr double kLargestChange = 0.2;   // rad or m of any joint per step of a line
-constexpr double kInContact = 0.012;     // m of a lift in which the target may touch its neighbours
-constexpr double kTouches = 0.002;       // m: neighbours at the start
-constexpr double kInFrontGap = 0.03;     // m between the furniture and an object in front of it
-constexpr double kLower = 0.03;          // m of the straight way down to a place
-constexpr double kRetreat = 0.08;        // m of the straight way back from a place
-constexpr int kGoalSolutions = 4;        // starts of the inverse kinematics per pose at the goal
-constexpr std::array kLifts = {0.03, 0.06, 0.016};                // m
+constexpr double kLineStep = 0.008;     // m between configurations on a straight line
+constexpr double kLargestChange = 0.2;  // rad or m of any joint per step of a line
+constexpr double kInContact = 0.012;    // m of a lift in which the target may touch its neighbours
+constexpr double kTouches = 0.002;      // m: neighbours at the start
+constexpr double kInFrontGap = 0.03;    // m between the furniture and an object in front of it
+constexpr double kLower = 0.03;         // m of the straight way down to a place
+constexpr double kRetreat = 0.08;       // m of the straight way back from a place
+constexpr int kGoalSolutions = 4;       // starts of the inverse kinematics per pose at the goal
+constexpr std::array kLifts = {0.03, 0.06, 0.016};                        // m
 constexpr std::array kGoalYaws = {0.0, 0.5, -0.5, 1.1, -1.1, 1.6, -1.6};  // rad of a placed object
 
 // The displacements (m: across, upwards) of poses in front of the furniture, preferred first.
@@ -63,8 +63,8 @@ class MotionSearch::Impl {
       shape.Place(part, target_.world_from_body);
       obstacles_.Mark(shape, kTouches, &touching_);
     }
-    order_ = OrderGrasps(grasps_, target_, world_from_robot, options.standoff, &clearance_,
-                         &counts_);
+    order_ =
+        OrderGrasps(grasps_, target_, world_from_robot, options.standoff, &clearance_, &counts_);
     counts_.hits = clearance_.hits();
   }
 
@@ -167,8 +167,8 @@ class MotionSearch::Impl {
       bool lifted = FollowLine(tool, std::min(kInContact, height) * Vector3d::UnitZ(), &up);
       clearance_.IgnoreForHeld(nullptr);
       const Isometry3d low = Shifted(tool, std::min(kInContact, height) * Vector3d::UnitZ());
-      lifted = lifted && FollowLine(low, std::max(0.0, height - kInContact) * Vector3d::UnitZ(),
-                                    &up);
+      lifted =
+          lifted && FollowLine(low, std::max(0.0, height - kInContact) * Vector3d::UnitZ(), &up);
       if (lifted) {
         segments->assign({{Phase::kLift, up, planner_.robot().gripper.closed}});
         if (goal_.kind == GoalKind::kLift) return true;
@@ -250,9 +250,8 @@ class MotionSearch::Impl {
     const int steps = static_cast<int>(std::ceil(displacement.norm() / kLineStep));
     for (int i = 1; i <= steps; ++i) {
       const double share = static_cast<double>(i) / steps;
-      const auto next =
-          planner_.Solve(robot_from_world_ * Shifted(world_from_tool, share * displacement),
-                         line->back());
+      const auto next = planner_.Solve(
+          robot_from_world_ * Shifted(world_from_tool, share * displacement), line->back());
       if (!next) return false;
       if ((*next - line->back()).lpNorm<Eigen::Infinity>() > kLargestChange) return false;
       if (!clearance_.IsPathCollisionFree(line->back(), *next)) return false;
@@ -263,8 +262,8 @@ class MotionSearch::Impl {
 
   std::optional<Waypoints> PathToPose(const JointVector& from, const Isometry3d& world_from_tool,
                                       core::Rng& rng) {
-    for (const JointVector& to : planner_.Solutions(robot_from_world_ * world_from_tool, from,
-                                                    kGoalSolutions, rng)) {
+    for (const JointVector& to :
+         planner_.Solutions(robot_from_world_ * world_from_tool, from, kGoalSolutions, rng)) {
       if (!clearance_.IsConfigurationFree(to)) continue;
       if (auto path = JointPathBetween(from, to)) return path;
       if (failed_trees_ >= options_.tree_searches) return std::nullopt;
@@ -293,7 +292,7 @@ class MotionSearch::Impl {
   Isometry3d world_from_robot_, robot_from_world_;
   const MotionOptions& options_;
   Obstacles obstacles_;
-  ArmClearance clearance_;
+  RobotClearance clearance_;
   const std::vector<Grasp>& grasps_;
   Eigen::AlignedBox3d box_;
   double front_ = HUGE_VAL;     // m, x of the front of the furniture that supports the target

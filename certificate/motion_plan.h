@@ -37,11 +37,11 @@ struct MotionPlan {
 
 struct MotionOptions {
   ClearanceMargins margins;
-  int candidates = 96;       // most grasps that are tried with the whole arm
-  int arm_solutions = 6;     // starts of the inverse kinematics per grasp
-  double standoff = 0.1;     // m of the straight approach
-  int tree_rounds = 250;     // most rounds of one search for a joint path
-  int tree_searches = 12;    // most such searches that may fail for one target
+  int candidates = 96;     // most grasps that are tried with the whole arm
+  int arm_solutions = 6;   // starts of the inverse kinematics per grasp
+  double standoff = 0.1;   // m of the straight approach
+  int tree_rounds = 250;   // most rounds of one search for a joint path
+  int tree_searches = 12;  // most such searches that may fail for one target
   std::uint64_t seed = 1;
 
   bool IsValid(std::string* error) const;

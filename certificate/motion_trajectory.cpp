@@ -123,15 +123,15 @@ TimedMotion TrajectoryOf(const MotionPlan& plan, const robot::RobotModel& robot,
   std::vector<robot::JointLimits> limits;
   std::vector<bool> sliding;
   for (const robot::ArmJoint& joint : robot.arm.joints) sliding.push_back(joint.prismatic);
-  for (const int joint : robot.arm_joints) limits.push_back(robot.limits[static_cast<size_t>(joint)]);
+  for (const int joint : robot.arm_joints)
+    limits.push_back(robot.limits[static_cast<size_t>(joint)]);
   const auto leader = static_cast<size_t>(robot.gripper.joints.front());
   sliding.push_back(robot.urdf.joints[leader].type == assets::JointType::kPrismatic);
   limits.push_back(robot.limits[leader]);
   for (robot::JointLimits& limit : limits) limit = robot::CommandLimits(limit, robot.margin);
   robot::RetimingOptions retiming;
   retiming.rate = options.rate;
-  const robot::Retimed retimed =
-      robot::Retime(path.Path(), limits, sliding, &robot.arm, retiming);
+  const robot::Retimed retimed = robot::Retime(path.Path(), limits, sliding, &robot.arm, retiming);
   const robot::LimitReport report = robot::CheckLimits(retimed.trajectory, limits);
   if (!report.accepted()) {
     throw core::Error(report.findings.front().sentence, report.findings.front().place,

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "certificate/arm_clearance.h"
 #include "certificate/grasp.h"
+#include "certificate/robot_clearance.h"
 #include "robot/pose_inverse_kinematics.h"
 #include "robot/robot_model.h"
 #include "sim/driven_robot.h"

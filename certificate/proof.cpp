@@ -15,10 +15,10 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr double kSweepStep = 0.06;      // rad of any joint between configurations of the sweep
-constexpr int kCheckSteps = 6;           // physics steps between checks of the others
-constexpr double kGripForce = 0.5;       // N of each finger on a held object
-constexpr double kAtRest = 1e-3;         // m that a placed object may move while it is watched
+constexpr double kSweepStep = 0.06;  // rad of any joint between configurations of the sweep
+constexpr int kCheckSteps = 6;       // physics steps between checks of the others
+constexpr double kGripForce = 0.5;   // N of each finger on a held object
+constexpr double kAtRest = 1e-3;     // m that a placed object may move while it is watched
 
 // Returns an upper bound of the displacement of any point of a body.
 double DisplacementOf(const BodyModel& model, const Isometry3d& from, const Isometry3d& to) {
@@ -78,7 +78,7 @@ std::vector<char> NearBodies(const Planner& planner, const PlacedScene& scene, i
   std::vector<char> near(scene.bodies.size(), 0);
   near[static_cast<size_t>(target)] = 1;
   const Obstacles obstacles(scene);
-  ArmClearance arm(planner.shapes(), obstacles, world_from_robot, {});
+  RobotClearance arm(planner.shapes(), obstacles, world_from_robot, {});
   TrajectoryCommands commands(trajectory, planner.robot());
   Eigen::VectorXd last;
   bool gripped = false;
@@ -89,8 +89,8 @@ std::vector<char> NearBodies(const Planner& planner, const PlacedScene& scene, i
         last.size() == 0 || (now - last).head(size).lpNorm<Eigen::Infinity>() > kSweepStep;
     const bool closing = last.size() > 0 && now[size] < last[size] - 1e-3;
     if (closing && !gripped) {  // the target follows the tool from here on
-      const Isometry3d tool = world_from_robot * robot::ForwardKinematics(planner.robot().arm,
-                                                                         now.head(size));
+      const Isometry3d tool =
+          world_from_robot * robot::ForwardKinematics(planner.robot().arm, now.head(size));
       const Eigen::Vector3d middle = grasped.world_from_body * grasped.model->box.center();
       if ((tool.translation() - middle).norm() < grasped.model->radius + 0.05) {
         arm.Hold(grasped.model.get(), tool.inverse() * grasped.world_from_body);
@@ -117,7 +117,10 @@ class ReplayWorld {
   ReplayWorld(const Planner& planner, const PlacedScene& scene, int target,
               const Isometry3d& world_from_robot, const std::vector<char>& free,
               const ProofOptions& options)
-      : scene_(scene), target_(static_cast<size_t>(target)), options_(options), world_(Of(options)) {
+      : scene_(scene),
+        target_(static_cast<size_t>(target)),
+        options_(options),
+        world_(Of(options)) {
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
       sim::Placement placement;
       placement.world_from_root = scene.bodies[i].world_from_body;
@@ -230,8 +233,8 @@ Proof Replay(const Planner& planner, const PlacedScene& scene, int target, const
   if (!options.IsValid(&error)) throw core::Error(error, "replay");
   robot::RequireWellFormed(trajectory, "replay");
   const PlacedBody& body = scene.bodies[static_cast<size_t>(target)];
-  const std::vector<char> free = NearBodies(planner, scene, target, world_from_robot, trajectory,
-                                            options.free_distance);
+  const std::vector<char> free =
+      NearBodies(planner, scene, target, world_from_robot, trajectory, options.free_distance);
   ReplayWorld world(planner, scene, target, world_from_robot, free, options);
   TrajectoryCommands commands(trajectory, planner.robot());
   Proof proof;

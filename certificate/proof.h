@@ -34,14 +34,14 @@ struct ReplayMoment {
 // The result of driving the robot along a trajectory in a fresh world.
 struct Proof {
   bool success = false;
-  std::string failure;         // what happened, if it failed
-  double others_moved = 0.0;   // m, the largest displacement of a point of another object ...
-  std::string moved_most;      // ... and its name
-  double slip = 0.0;           // m that the target has moved in the gripper since it was lifted
-  double target_moved = 0.0;   // m
-  bool held = false;           // both fingers press on the target at the end
-  double seconds = 0.0;        // s simulated
-  int free_bodies = 0;         // bodies that could move
+  std::string failure;        // what happened, if it failed
+  double others_moved = 0.0;  // m, the largest displacement of a point of another object ...
+  std::string moved_most;     // ... and its name
+  double slip = 0.0;          // m that the target has moved in the gripper since it was lifted
+  double target_moved = 0.0;  // m
+  bool held = false;          // both fingers press on the target at the end
+  double seconds = 0.0;       // s simulated
+  int free_bodies = 0;        // bodies that could move
   std::vector<ReplayMoment> moments;  // at the times asked for
 };
 

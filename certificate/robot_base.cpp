@@ -78,7 +78,7 @@ RobotBase ChooseRobotBase(const Planner& planner, const PlacedScene& scene, int 
       base.world_from_robot.translation() =
           Vector3d(box.min().x() - distance, box.center().y(), height);
       const Isometry3d robot_from_world = base.world_from_robot.inverse();
-      ArmClearance clearance(planner.shapes(), obstacles, base.world_from_robot, {});
+      RobotClearance clearance(planner.shapes(), obstacles, base.world_from_robot, {});
       for (const Vector3d& point : points) {
         for (const double lean : kLeans) {
           ++base.asked;

@@ -15,8 +15,7 @@ PlacedScene SceneBodies::SceneOf(const std::vector<scene::SceneObject>& objects,
   std::map<std::string, int> counts;
   for (size_t i = 0; i < objects.size(); ++i) {
     const scene::SceneObject& object = objects[i];
-    const std::string numbered =
-        object.category + "_" + std::to_string(counts[object.category]++);
+    const std::string numbered = object.category + "_" + std::to_string(counts[object.category]++);
     scene.bodies.push_back({i < names.size() ? names[i] : numbered, At(object.category),
                             object.world_from_object, object.welded});
   }

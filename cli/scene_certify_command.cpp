@@ -31,7 +31,7 @@ int Certify(CertifyFlags flags, const CommonOptions& common) {
   core::Progress progress(common.ProgressStyle());
   const workflows::SceneCertificationReport report = workflows::CertifyScenes(request, &progress);
   if (common.json) {
-    PrintJson(workflows::CertificationJson(report), report.findings);
+    PrintJson(workflows::CertificationJson(report, true), report.findings);
   } else {
     PrintFindings(report.findings, common);
     std::fputs(workflows::CertificationTable(report).c_str(), stdout);
@@ -63,8 +63,7 @@ void AddSceneCertify(CLI::App* scene, CommonOptions* common, Run* run) {
       ->default_str("0");
   command->add_option("--task", request.task, "The task, e.g. \"bring the apple to the front\"")
       ->required();
-  command->add_option("-o,--output", request.output, "The folder for the certificates")
-      ->required();
+  command->add_option("-o,--output", request.output, "The folder for the certificates")->required();
   command
       ->add_option("--base", flags->base,
                    "The robot's base: x,y,z in metres and the yaw in radians")

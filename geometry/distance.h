@@ -34,9 +34,9 @@ ConvexDistance SignedDistance(const ConvexShape& a, const Eigen::Isometry3d& wor
 // Computes the same for two shapes given in one frame.
 ConvexDistance SignedDistance(const ConvexShape& a, const ConvexShape& b);
 
-// Returns true if two bodies, given in one frame, are farther apart than `margin` (m, >= 0). Ends as
-// soon as a separating plane or a pair of near points is known, and allocates no memory. The bodies
-// must have finite vertices, at least one each.
+// Returns true if two bodies, given in one frame, are farther apart than `margin` (m, >= 0). Ends
+// as soon as a separating plane or a pair of near points is known, and allocates no memory. The
+// bodies must have finite vertices, at least one each.
 bool AreApart(const ConvexShape& a, const ConvexShape& b, double margin);
 
 // Returns the smallest signed distance of `body` to any of `parts` (convex meshes, same frame),

@@ -117,5 +117,29 @@ TEST(SignedDistance, PartsAndErrors) {
   EXPECT_THROW(SignedDistance({{Vector3d(std::nan(""), 0, 0)}, 0}, ball), core::Error);
 }
 
+TEST(AreApart, AgreesWithTheSignedDistance) {
+  core::Rng rng(11);
+  int apart = 0;
+  for (int i = 0; i < 4000; ++i) {
+    ConvexShape shapes[2];
+    for (ConvexShape& shape : shapes) {
+      const Vector3d at = 1.5 * core::UniformDirection(rng);
+      const auto count = 1 + core::UniformIndex(rng, 12);
+      for (int k = 0; k < count; ++k) {
+        shape.vertices.push_back(at + core::Uniform(rng) * core::UniformDirection(rng));
+      }
+      if (i % 3 == 0) shape.radius = core::Uniform(rng, 0.0, 0.5);
+    }
+    const double distance = SignedDistance(shapes[0], shapes[1]).distance;
+    for (const double margin : {0.0, 0.1, 0.5}) {
+      if (std::abs(distance - margin) < 1e-7) continue;
+      EXPECT_EQ(AreApart(shapes[0], shapes[1], margin), distance > margin) << distance;
+      apart += distance > margin;
+    }
+  }
+  EXPECT_GT(apart, 1000);
+  EXPECT_LT(apart, 11000);
+}
+
 }  // namespace
 }  // namespace simwright::geometry

@@ -59,8 +59,7 @@ void WriteCertificateSheet(const std::vector<CertificateView>& views,
   core::ParallelFor(static_cast<int>(pictures.size()), [&](int i) {
     const CertificateView& view = views[static_cast<size_t>(i) / columns];
     const size_t column = static_cast<size_t>(i) % columns;
-    pictures[static_cast<size_t>(i)] =
-        PictureOf(view, (*view.moments)[column], asset_set, visuals);
+    pictures[static_cast<size_t>(i)] = PictureOf(view, (*view.moments)[column], asset_set, visuals);
     if (column == 0) progress->Advance();
   });
   core::WritePng(path, core::ContactSheet(pictures, static_cast<int>(columns)));

@@ -17,7 +17,8 @@ using Words = std::vector<std::string>;
 constexpr int kMostOrdinal = 50;
 constexpr size_t kMostTaskWords = 60;
 
-const Words kBringVerbs = {"bring", "move", "take", "get", "fetch", "put", "carry", "pull", "place"};
+const Words kBringVerbs = {"bring", "move",  "take", "get",  "fetch",
+                           "put",   "carry", "pull", "place"};
 const Words kLiftVerbs = {"lift", "raise", "grasp", "grab", "pick"};
 const Words kFrontWords = {"front", "forward", "forwards", "out", "me"};
 const Words kFillers = {"please", "up", "the", "a", "an", "can", "you", "over"};

@@ -143,8 +143,7 @@ class RobotBases {
     for (const auto& [model, pose, base] : known_) {
       if (model == body.model && pose.isApprox(body.world_from_body, 1e-9)) return base;
     }
-    const certificate::RobotBase chosen =
-        certificate::ChooseRobotBase(*planner_, scene, support);
+    const certificate::RobotBase chosen = certificate::ChooseRobotBase(*planner_, scene, support);
     known_.emplace_back(body.model, body.world_from_body, chosen.world_from_robot);
     return chosen.world_from_robot;
   }
@@ -219,8 +218,8 @@ std::vector<std::string> KnownNames(const CertificationScenes& scenes) {
   std::set<std::string> names;
   for (const std::string& name : scenes.FreeNames()) names.insert(name);
   for (const scene::SceneType& type : scene::SceneTypes()) {
-    for (const std::string& name : scene::NamesOfVocabulary(
-             scene::VocabularyOf(type.make(scene::DefaultCategorySizes())))) {
+    for (const std::string& name :
+         scene::NamesOfVocabulary(scene::VocabularyOf(type.make(scene::DefaultCategorySizes())))) {
       names.insert(name);
     }
   }
@@ -253,7 +252,7 @@ class Certification {
     });
     if (request_.pictures) WritePictures(staged.staging());
     report_.seconds = SecondsSince(start_);
-    core::WriteFile(staged.staging() / "certificate.json", CertificationJson(report_));
+    core::WriteFile(staged.staging() / "certificate.json", CertificationJson(report_, false));
     progress_->Finish();
     staged.Commit();
     return std::move(report_);
@@ -296,9 +295,9 @@ class Certification {
       file /= scene.bodies[static_cast<size_t>(job.targets.front().target)].name;
     }
     fs::create_directories(folder / file);
-    one->certificate = certificate::Certify(
-        planner, scene, certificate::EasiestFirst(planner, scene, job.targets), options,
-        folder / file / "trajectory.json");
+    one->certificate =
+        certificate::Certify(planner, scene, certificate::EasiestFirst(planner, scene, job.targets),
+                             options, folder / file / "trajectory.json");
     one->seconds = SecondsSince(began);
     const int target = one->certificate.target;
     one->target = scene.bodies[static_cast<size_t>(target)].name;
@@ -317,12 +316,12 @@ class Certification {
     for (size_t j = 0; j < jobs_.size() && views.size() < kPicturedScenes; ++j) {
       const CertifiedScene& one = report_.scenes[j];
       if (!one.certificate.solvable()) continue;
-      views.push_back({&scenes_.Objects(jobs_[j].scene), &one.certificate.proof.moments,
-                       one.world_from_robot});
+      views.push_back(
+          {&scenes_.Objects(jobs_[j].scene), &one.certificate.proof.moments, one.world_from_robot});
     }
     progress_->Stage("rendering", static_cast<int>(views.size()));
-    WriteCertificateSheet(views, scenes_.assets(), robot::Panda(false),
-                          folder / "certificates.png", progress_);
+    WriteCertificateSheet(views, scenes_.assets(), robot::Panda(false), folder / "certificates.png",
+                          progress_);
   }
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -14,13 +14,13 @@
 namespace simwright::workflows {
 
 struct SceneCertificationRequest {
-  std::filesystem::path scene;            // any form that ReadSceneSource takes
-  std::string scenes;                     // of a dataset: "0,3-5"; empty: the first
-  std::string task;                       // "bring the apple to the front"
-  std::optional<Eigen::Vector4d> base;    // m and rad: x, y, z and yaw of the robot's base
-  int candidates = 96;                    // most grasps per object that are tried with the arm
-  bool every = false;                     // certify each object that the task may mean by itself
-  bool all_free = false;                  // no object stays fixed in the replays
+  std::filesystem::path scene;          // any form that ReadSceneSource takes
+  std::string scenes;                   // of a dataset: "0,3-5"; empty: the first
+  std::string task;                     // "bring the apple to the front"
+  std::optional<Eigen::Vector4d> base;  // m and rad: x, y, z and yaw of the robot's base
+  int candidates = 96;                  // most grasps per object that are tried with the arm
+  bool every = false;                   // certify each object that the task may mean by itself
+  bool all_free = false;                // no object stays fixed in the replays
   bool pictures = true;
   std::uint64_t seed = 1;
   std::filesystem::path assets;  // a folder of asset folders; empty: the source's
@@ -57,8 +57,9 @@ struct SceneCertificationReport {
 SceneCertificationReport CertifyScenes(const SceneCertificationRequest& request,
                                        core::Progress* progress);
 
-// Format the report as text for people and as JSON.
+// Format the report as text for people and as JSON; `timed`: with the seconds that it took, which
+// the file leaves out, so that the same input gives the same bytes.
 std::string CertificationTable(const SceneCertificationReport& report);
-std::string CertificationJson(const SceneCertificationReport& report);
+std::string CertificationJson(const SceneCertificationReport& report, bool timed);
 
 }  // namespace simwright::workflows

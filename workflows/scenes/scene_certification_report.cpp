@@ -69,7 +69,7 @@ core::OrderedJson ProofJson(const certificate::Proof& proof) {
   return json;
 }
 
-core::OrderedJson SceneJson(const CertifiedScene& scene) {
+core::OrderedJson SceneJson(const CertifiedScene& scene, bool timed) {
   const Certificate& certificate = scene.certificate;
   core::OrderedJson json;
   json["scene"] = scene.name;
@@ -95,7 +95,7 @@ core::OrderedJson SceneJson(const CertifiedScene& scene) {
     json["trajectory"] = scene.trajectory;
     json["plan"] = PlanJson(certificate);
   }
-  json["seconds"] = scene.seconds;
+  if (timed) json["seconds"] = scene.seconds;
   return json;
 }
 
@@ -152,8 +152,8 @@ std::string CertificationTable(const SceneCertificationReport& report) {
       }
     }
   }
-  std::snprintf(line, sizeof line, "%d of %d are solvable (%.0f %%)\n",
-                report.SolvableCount(), count, 100.0 * report.SolvableCount() / count);
+  std::snprintf(line, sizeof line, "%d of %d are solvable (%.0f %%)\n", report.SolvableCount(),
+                count, 100.0 * report.SolvableCount() / count);
   text += line;
   for (const auto& [reason, number] : reasons) {
     std::snprintf(line, sizeof line, "  %s: %d\n", reason.c_str(), number);
@@ -172,16 +172,19 @@ std::string CertificationTable(const SceneCertificationReport& report) {
   return text + line;
 }
 
-std::string CertificationJson(const SceneCertificationReport& report) {
+std::string CertificationJson(const SceneCertificationReport& report, bool timed) {
   core::OrderedJson json;
   json["format"] = 1;
   json["task"] = report.task;
   json["robot"] = "panda";
   json["solvable"] = report.SolvableCount();
   json["scenes"] = core::OrderedJson::array();
-  for (const CertifiedScene& scene : report.scenes) json["scenes"].push_back(SceneJson(scene));
-  json["median_seconds"] = report.MedianSeconds();
-  json["seconds"] = report.seconds;
+  for (const CertifiedScene& scene : report.scenes)
+    json["scenes"].push_back(SceneJson(scene, timed));
+  if (timed) {
+    json["median_seconds"] = report.MedianSeconds();
+    json["seconds"] = report.seconds;
+  }
   return core::JsonText(json);
 }
 

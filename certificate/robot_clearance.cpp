@@ -1,4 +1,4 @@
-#include "certificate/arm_clearance.h"
+#include "certificate/robot_clearance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,9 +62,9 @@ RobotShapes::RobotShapes(const robot::RobotModel& given) : robot(&given) {
   }
 }
 
-ArmClearance::ArmClearance(const RobotShapes& shapes, const Obstacles& obstacles,
-                           const Eigen::Isometry3d& world_from_robot,
-                           const ClearanceMargins& margins)
+RobotClearance::RobotClearance(const RobotShapes& shapes, const Obstacles& obstacles,
+                               const Eigen::Isometry3d& world_from_robot,
+                               const ClearanceMargins& margins)
     : shapes_(shapes),
       obstacles_(obstacles),
       world_from_robot_(world_from_robot),
@@ -74,12 +74,12 @@ ArmClearance::ArmClearance(const RobotShapes& shapes, const Obstacles& obstacles
   for (size_t i = 0; i < placed_.size(); ++i) placed_[i].resize(shapes.links[i].size());
 }
 
-void ArmClearance::Hold(const BodyModel* held, const Eigen::Isometry3d& tool_from_held) {
+void RobotClearance::Hold(const BodyModel* held, const Eigen::Isometry3d& tool_from_held) {
   held_ = held;
   tool_from_held_ = tool_from_held;
 }
 
-void ArmClearance::PlaceLinks(const robot::JointVector& arm) const {
+void RobotClearance::PlaceLinks(const robot::JointVector& arm) const {
   const std::vector<Eigen::Isometry3d> poses = shapes_.robot->LinkPoses(arm, leader_);
   for (size_t i = 0; i < placed_.size(); ++i) {
     if (placed_[i].empty()) continue;
@@ -88,18 +88,19 @@ void ArmClearance::PlaceLinks(const robot::JointVector& arm) const {
   }
 }
 
-int ArmClearance::LinkHit(int link, double margin) const {
+int RobotClearance::LinkHit(int link, double margin) const {
   for (const PlacedShape& shape : placed_[static_cast<size_t>(link)]) {
     const int hit = obstacles_.Hit(shape, margin);
     if (hit != kFree) return hit;
-    if (floor_ && !shapes_.near_base[static_cast<size_t>(link)] && shape.box.min().z() < kFloorGap) {
+    if (floor_ && !shapes_.near_base[static_cast<size_t>(link)] &&
+        shape.box.min().z() < kFloorGap) {
       return kHitsFloor;
     }
   }
   return kFree;
 }
 
-int ArmClearance::HeldHit(const Eigen::Isometry3d& world_from_tool) const {
+int RobotClearance::HeldHit(const Eigen::Isometry3d& world_from_tool) const {
   if (held_ == nullptr) return kFree;
   const Eigen::Isometry3d pose = world_from_tool * tool_from_held_;
   for (const geometry::ConvexShape& part : held_->parts) {
@@ -111,7 +112,7 @@ int ArmClearance::HeldHit(const Eigen::Isometry3d& world_from_tool) const {
   return kFree;
 }
 
-bool ArmClearance::HitsItself() const {
+bool RobotClearance::HitsItself() const {
   for (const auto& [a, b] : shapes_.self_pairs) {
     for (const PlacedShape& one : placed_[static_cast<size_t>(a)]) {
       for (const PlacedShape& other : placed_[static_cast<size_t>(b)]) {
@@ -123,12 +124,12 @@ bool ArmClearance::HitsItself() const {
   return false;
 }
 
-int ArmClearance::Counted(int hit) const {
+int RobotClearance::Counted(int hit) const {
   if (hit >= 0 && static_cast<size_t>(hit) < hits_.size()) ++hits_[static_cast<size_t>(hit)];
   return hit;
 }
 
-int ArmClearance::Hit(const robot::JointVector& arm) const {
+int RobotClearance::Hit(const robot::JointVector& arm) const {
   PlaceLinks(arm);
   const std::vector<int>& gripper = shapes_.gripper_links;
   for (int link = static_cast<int>(placed_.size()) - 1; link >= 0; --link) {
@@ -141,7 +142,7 @@ int ArmClearance::Hit(const robot::JointVector& arm) const {
   return Counted(HeldHit(world_from_robot_ * robot::ForwardKinematics(shapes_.robot->arm, arm)));
 }
 
-int ArmClearance::GripperHit(const Eigen::Isometry3d& world_from_tool) const {
+int RobotClearance::GripperHit(const Eigen::Isometry3d& world_from_tool) const {
   const std::vector<Eigen::Isometry3d> poses =
       shapes_.robot->LinkPoses(shapes_.robot->home(), leader_);
   const Eigen::Isometry3d world_from_root =
@@ -157,7 +158,7 @@ int ArmClearance::GripperHit(const Eigen::Isometry3d& world_from_tool) const {
   return Counted(HeldHit(world_from_tool));
 }
 
-int ArmClearance::PathHit(const robot::JointVector& from, const robot::JointVector& to) const {
+int RobotClearance::PathHit(const robot::JointVector& from, const robot::JointVector& to) const {
   const double length = (to - from).lpNorm<Eigen::Infinity>();
   const int checks = 1 + static_cast<int>(length / kPathStep);
   // The end first, then the middle: most hits are found soon.
@@ -174,16 +175,15 @@ int ArmClearance::PathHit(const robot::JointVector& from, const robot::JointVect
   return kFree;
 }
 
-void ArmClearance::MarkNear(const robot::JointVector& arm, double margin,
-                            std::vector<char>* near) const {
+void RobotClearance::MarkNear(const robot::JointVector& arm, double margin,
+                              std::vector<char>* near) const {
   PlaceLinks(arm);
   for (const std::vector<PlacedShape>& link : placed_) {
     for (const PlacedShape& shape : link) obstacles_.Mark(shape, margin, near);
   }
   if (held_ == nullptr) return;
-  const Eigen::Isometry3d pose = world_from_robot_ *
-                                 robot::ForwardKinematics(shapes_.robot->arm, arm) *
-                                 tool_from_held_;
+  const Eigen::Isometry3d pose =
+      world_from_robot_ * robot::ForwardKinematics(shapes_.robot->arm, arm) * tool_from_held_;
   for (const geometry::ConvexShape& part : held_->parts) {
     held_shape_.Place(part, pose);
     obstacles_.Mark(held_shape_, margin, near);

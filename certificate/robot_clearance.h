@@ -27,11 +27,11 @@ inline constexpr int kFree = -1, kHitsFloor = -2, kHitsItself = -3;
 
 // Collision checks of a robot at a base, with or without a held object, against obstacles. Counts
 // the hits by body. Not thread-safe.
-class ArmClearance : public manipulation::PathChecker {
+class RobotClearance : public manipulation::PathChecker {
  public:
   // All arguments must outlive this.
-  ArmClearance(const RobotShapes& shapes, const Obstacles& obstacles,
-               const Eigen::Isometry3d& world_from_robot, const ClearanceMargins& margins);
+  RobotClearance(const RobotShapes& shapes, const Obstacles& obstacles,
+                 const Eigen::Isometry3d& world_from_robot, const ClearanceMargins& margins);
 
   // Sets the position of the gripper's first joint for the following checks.
   void SetLeader(double leader) { leader_ = leader; }

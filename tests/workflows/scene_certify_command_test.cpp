@@ -1,0 +1,169 @@
+// `simwright scene certify`: verdicts, files and words, on scenes of every form; bad input is
+// rejected.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "core/files.h"
+#include "program.h"
+#include "robot/trajectory_file.h"
+#include "running_program.h"
+
+namespace simwright::workflows {
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// A pantry with its assets, made once.
+class SceneCertifyCommand : public testing::Test {
+ protected:
+  // One test runs all checks, because separate processes would each make all assets again.
+  static void CertifiesAScene();
+  static void CertifiesEveryObject();
+  static void TakesPoses();
+  static void RefusesWhatDoesNotFit();
+  static void LeavesNothingWhenStopped();
+
+  static void SetUpTestSuite() {
+    folder_ = new core::TemporaryFolder();
+    generated_ = RunProgram("scene generate --type pantry_shelf --count 1 --seed 77 --quiet -o " +
+                            At("pantry"));
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static std::string At(const std::string& name) { return (folder_->path() / name).string(); }
+  static Outcome Certify(const std::string& source, const std::string& task,
+                         const std::string& rest) {
+    return RunProgram("scene certify " + source + " --task \"" + task + "\" " + rest);
+  }
+  static json Report(const std::string& folder) {
+    return json::parse(core::ReadFile(fs::path(At(folder)) / "certificate.json"));
+  }
+
+  static inline core::TemporaryFolder* folder_ = nullptr;
+  static inline Outcome generated_;
+};
+
+void SceneCertifyCommand::CertifiesAScene() {
+  const Outcome made =
+      Certify(At("pantry"), "Please bring the pear to the front!", "-o " + At("proof"));
+  ASSERT_EQ(made.code, 0) << made.text;
+  EXPECT_NE(made.text.find("bring the pear to the front"), std::string::npos) << made.text;
+  const json report = Report("proof");
+  EXPECT_EQ(report["task"], "bring the pear to the front");
+  ASSERT_EQ(report["scenes"].size(), 1u);
+  const json& scene = report["scenes"][0];
+  ASSERT_TRUE(scene["solvable"].get<bool>()) << scene;
+  EXPECT_EQ(scene["verdict"], "solvable");
+  EXPECT_EQ(scene["object"].get<std::string>().rfind("pear", 0), 0u);
+  EXPECT_TRUE(scene["proof"]["success"].get<bool>());
+  EXPECT_TRUE(scene["proof"]["held"].get<bool>());
+  EXPECT_LE(scene["proof"]["others_moved_mm"].get<double>(), 5.0);
+  EXPECT_GE(scene["difficulty"].get<double>(), 0.0);
+  EXPECT_LT(scene["difficulty"].get<double>(), 1.0);
+  EXPECT_LT(scene["world_from_robot"]["translation"][0].get<double>(), -0.3);
+  const fs::path file = fs::path(At("proof")) / scene["trajectory"].get<std::string>();
+  const robot::JointTrajectory trajectory = robot::ReadTrajectory(file);
+  EXPECT_EQ(trajectory.joints.size(), 8u);
+  EXPECT_GT(trajectory.times.back(), 1.0);
+  EXPECT_TRUE(fs::exists(fs::path(At("proof")) / "certificates.png"));
+  // The same seed gives the same bytes, on any number of threads.
+  ASSERT_EQ(Certify(At("pantry"), "move a pear to the front",
+                    "--threads 1 --no-pictures --quiet -o " + At("again"))
+                .code,
+            0);
+  EXPECT_EQ(core::ReadFile(fs::path(At("again")) / scene["trajectory"].get<std::string>()),
+            core::ReadFile(file));
+}
+
+void SceneCertifyCommand::CertifiesEveryObject() {
+  const Outcome made =
+      Certify(At("pantry"), "lift the pear", "--every --no-pictures --json -o " + At("every"));
+  ASSERT_EQ(made.code, 0) << made.text;
+  const json report = Report("every");
+  EXPECT_GT(report["scenes"].size(), 1u);
+  int solvable = 0;
+  for (const json& one : report["scenes"]) {
+    EXPECT_EQ(one["instances"], 1);
+    if (one["solvable"].get<bool>()) {
+      ++solvable;
+      EXPECT_TRUE(fs::exists(fs::path(At("every")) / one["trajectory"].get<std::string>()));
+    } else {
+      EXPECT_FALSE(one["reason"].get<std::string>().empty());
+      EXPECT_FALSE(one.contains("trajectory"));
+      EXPECT_EQ(one["difficulty"], 1.0);
+    }
+    if (one["verdict"] != "blocked" || !one["blockers_verified"].get<bool>()) continue;
+    EXPECT_FALSE(one["blockers"].empty());
+  }
+  EXPECT_EQ(report["solvable"], solvable);
+  EXPECT_GT(solvable, 0);
+}
+
+void SceneCertifyCommand::TakesPoses() {
+  // A pear on the top board alone, 5 cm behind the front.
+  core::WriteFile(At("pantry/poses.json"),
+                  R"([{"asset": "assets/shelf_pantry", "translation": [0, 0, 0]},
+                      {"asset": "assets/pear", "name": "lunch", "translation": [-0.08, 0, 0.818]}])");
+  const Outcome made = Certify(At("pantry/poses.json"), "bring the pear to the front",
+                               "--base=-0.6,0,0.3,0 --no-pictures -o " + At("poses"));
+  ASSERT_EQ(made.code, 0) << made.text;
+  const json scene = Report("poses")["scenes"][0];
+  EXPECT_EQ(scene["object"], "lunch");
+  EXPECT_TRUE(scene["solvable"].get<bool>()) << scene;
+  EXPECT_EQ(scene["world_from_robot"]["translation"][2], 0.3);
+}
+
+void SceneCertifyCommand::RefusesWhatDoesNotFit() {
+  const auto expect = [](const Outcome& outcome, const std::string& says) {
+    EXPECT_EQ(outcome.code, 1) << outcome.text;
+    EXPECT_EQ(outcome.text.rfind("error: ", 0), 0u) << outcome.text;
+    EXPECT_NE(outcome.text.find(says), std::string::npos) << outcome.text;
+    EXPECT_FALSE(fs::exists(At("bad")));
+  };
+  const std::string out = "-o " + At("bad"), pantry = At("pantry");
+  expect(Certify(pantry, "sing a song", out), "not understood");
+  expect(Certify(pantry, "bring the pear", out), "not understood");
+  expect(Certify(pantry, "bring to the front", out), "not understood");
+  expect(Certify(pantry, "bring the aple to the front", out), "apple");
+  expect(Certify(pantry, "bring the teapot to the front", out), "the objects are");
+  expect(Certify(pantry, "bring the fortieth pear to the front", out), "no fortieth pear");
+  expect(Certify(pantry, "lift the pear", "--base 1,2 " + out), "four numbers");
+  expect(Certify(pantry, "lift the pear", "--candidates 0 " + out), "--candidates");
+  expect(Certify(pantry, "lift the pear", "--scene 9 " + out), "9");
+  expect(Certify(At("missing"), "lift the pear", out), "no such scene");
+  EXPECT_EQ(Certify(pantry, "lift the pear", "-o " + At("proof")).code, 1);  // it exists
+}
+
+void SceneCertifyCommand::LeavesNothingWhenStopped() {
+  RunningProgram program(
+      "scene certify " + At("pantry") + " --task \"lift the pear\" --every -o " + At("stopped"),
+      At("stopped.log"));
+  const auto staging = [] {
+    return std::any_of(fs::directory_iterator(folder_->path()), fs::directory_iterator(),
+                       [](const fs::directory_entry& entry) {
+                         return entry.path().filename().string().find("stopped") !=
+                                    std::string::npos &&
+                                fs::is_directory(entry.path());
+                       });
+  };
+  ASSERT_TRUE(program.WaitFor(staging));
+  program.EndBy(SIGINT);
+  EXPECT_FALSE(staging()) << "it left a folder";
+}
+
+TEST_F(SceneCertifyCommand, ProvesOrNamesWhatIsInTheWay) {
+  ASSERT_EQ(generated_.code, 0) << generated_.text;
+  CertifiesAScene();
+  CertifiesEveryObject();
+  TakesPoses();
+  RefusesWhatDoesNotFit();
+  LeavesNothingWhenStopped();
+}
+
+}  // namespace
+}  // namespace simwright::workflows
