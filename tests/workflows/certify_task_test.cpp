@@ -23,6 +23,7 @@ TEST(SceneCertifyTask, ReadsWordingsOfOneTask) {
   }
   EXPECT_EQ(Read("lift the tea bottle"), "lift the tea bottle");
   EXPECT_EQ(Read("pick up the third can"), "lift the third can");
+  EXPECT_EQ(Read("Can you lift the 3rd can?"), "lift the third can");
   EXPECT_EQ(Read("put the second apple next to the bowl"),
             "bring the second apple next to the bowl");
   EXPECT_EQ(Read("bring the can to the first tea bottle"),

@@ -131,7 +131,7 @@ void SceneCertifyCommand::RefusesWhatDoesNotFit() {
   expect(Certify(pantry, "bring to the front", out), "not understood");
   expect(Certify(pantry, "bring the aple to the front", out), "apple");
   expect(Certify(pantry, "bring the teapot to the front", out), "the objects are");
-  expect(Certify(pantry, "bring the fortieth pear to the front", out), "no fortieth pear");
+  expect(Certify(pantry, "bring the 40th pear to the front", out), "no 40th pear");
   expect(Certify(pantry, "lift the pear", "--base 1,2 " + out), "four numbers");
   expect(Certify(pantry, "lift the pear", "--candidates 0 " + out), "--candidates");
   expect(Certify(pantry, "lift the pear", "--scene 9 " + out), "9");

@@ -37,7 +37,7 @@ core::Image PictureOf(const CertificateView& view, const certificate::ReplayMome
   }
   scene.Commit();
   const double distance = 0.5 * box.diagonal().norm() / std::sin(0.5 * kFieldOfView);
-  const core::Camera camera = core::OrbitCamera(box.center(), 0.9 * distance, kElevation, kAzimuth,
+  const core::Camera camera = core::OrbitCamera(box.center(), 0.75 * distance, kElevation, kAzimuth,
                                                 kFieldOfView, kPixels, kPixels);
   render::ForwardOptions options;
   options.shaded = true;

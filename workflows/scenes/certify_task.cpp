@@ -21,7 +21,8 @@ const Words kBringVerbs = {"bring", "move",  "take", "get",  "fetch",
                            "put",   "carry", "pull", "place"};
 const Words kLiftVerbs = {"lift", "raise", "grasp", "grab", "pick"};
 const Words kFrontWords = {"front", "forward", "forwards", "out", "me"};
-const Words kFillers = {"please", "up", "the", "a", "an", "can", "you", "over"};
+const Words kFillers = {"up", "the", "a", "an", "over"};
+const Words kOrdinalEndings = {"st", "nd", "rd", "th"};
 // Words between the object and its destination.
 const Words kTowards = {"to", "into", "in", "at", "next", "beside", "near", "by"};
 
@@ -55,7 +56,11 @@ scene::ObjectReference ReadReference(Words words, const std::vector<std::string>
   scene::ObjectReference reference;
   for (size_t i = 0; i < words.size(); ++i) {
     for (int ordinal = 1; ordinal <= kMostOrdinal; ++ordinal) {
-      if (words[i] != scene::OrdinalWord(ordinal)) continue;
+      const std::string digits = std::to_string(ordinal);
+      const bool numbered = words[i].size() == digits.size() + 2 &&
+                            words[i].compare(0, digits.size(), digits) == 0 &&
+                            IsOneOf(kOrdinalEndings, words[i].substr(digits.size()));
+      if (!numbered && words[i] != scene::OrdinalWord(ordinal)) continue;
       reference.ordinal = ordinal;
       words.erase(words.begin() + static_cast<std::ptrdiff_t>(i));
       break;
