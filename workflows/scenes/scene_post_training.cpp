@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -49,6 +51,32 @@ void ValidatePostTraining(const ScenePostTrainingRequest& request) {
   }
 }
 
+// The pieces of furniture that a scene has by category.
+using FurnitureCounts = std::map<std::string, int>;
+
+FurnitureCounts FurnitureOf(const std::vector<scene::SceneObject>& objects) {
+  FurnitureCounts counts;
+  for (const scene::SceneObject& object : objects) {
+    if (object.welded) ++counts[object.category];
+  }
+  return counts;
+}
+
+// The numbers of pieces of furniture that scenes of the data have.
+class FurnitureRule {
+ public:
+  explicit FurnitureRule(const SampledScenes& data) {
+    for (const auto& one : data) seen_.insert(FurnitureOf(one));
+  }
+  // Returns true if some scene of the data has the same pieces.
+  bool Holds(const std::vector<scene::SceneObject>& objects) const {
+    return seen_.count(FurnitureOf(objects)) > 0;
+  }
+
+ private:
+  std::set<FurnitureCounts> seen_;
+};
+
 // The scenes of the data that samples are compared with, and what they are compared by.
 class DataComparison {
  public:
@@ -58,7 +86,9 @@ class DataComparison {
       : vocabulary_(data.vocabulary()),
         asset_set_(asset_set),
         features_(ShippedSceneFeatures(findings)) {
-    if (!features_) throw core::Error("post-training needs the features of scenes");
+    if (!features_)
+      throw core::Error("post-training needs the features of scenes", "",
+                        "simwright scene features train makes them");
     // Held-out scenes, if there are some.
     const int held_out = data.SceneCount() - model.training_scenes;
     const bool use_held_out = model.training_scenes > 0 && held_out >= kReferenceScenes / 4;
@@ -67,7 +97,10 @@ class DataComparison {
     const SampledScenes scenes = Decoded(data.Read(first, count), vocabulary_);
     progress->Stage("images of the data", count);
     reference_ = Features(scenes, progress);
+    furniture_.emplace(scenes);
   }
+
+  const FurnitureRule& furniture() const { return *furniture_; }
 
   static SampledScenes Decoded(const std::vector<float>& tokens,
                                const scene::Vocabulary& vocabulary) {
@@ -99,6 +132,7 @@ class DataComparison {
   const scene::Vocabulary& vocabulary_;
   const scene::AssetSet& asset_set_;
   std::optional<scene::SceneFeatures> features_;
+  std::optional<FurnitureRule> furniture_;
   scene::FeatureMatrix reference_;
 };
 
@@ -119,12 +153,15 @@ steering::JudgedScene AfterPhysics(const std::vector<scene::SceneObject>& object
   return judged;
 }
 
+// Returns the rewards of scenes; 0 for those without the furniture of their type, such as a shelf's
+// objects without the shelf, which would count as much.
 std::vector<double> RewardsOf(const SampledScenes& scenes, const steering::SceneReward& reward,
-                              const scene::AssetSet& asset_set) {
+                              const FurnitureRule& furniture, const scene::AssetSet& asset_set) {
   std::vector<double> rewards(scenes.size());
   core::ParallelFor(static_cast<int>(scenes.size()), [&](int i) {
     core::CheckCancelled();
     const auto at = static_cast<size_t>(i);
+    if (!furniture.Holds(scenes[at])) return;
     rewards[at] = reward.NeedsPhysics() ? reward.Evaluate(AfterPhysics(scenes[at], asset_set))
                                         : reward.Evaluate({scenes[at], {}, {}});
   });
@@ -168,9 +205,11 @@ class Comparison {
         model.Sample(request_.compared_scenes, sampling, progress), model.metadata().vocabulary);
     PostTrainingSamples samples;
     samples.scenes = static_cast<int>(scenes.size());
-    const std::vector<double> rewards = RewardsOf(scenes, *objective_.reward, asset_set_);
+    const std::vector<double> rewards =
+        RewardsOf(scenes, *objective_.reward, data_.furniture(), asset_set_);
     samples.reward = std::accumulate(rewards.begin(), rewards.end(), 0.0) / samples.scenes;
     for (const auto& one : scenes) {
+      samples.furnished += (data_.furniture().Holds(one) ? 1.0 : 0.0) / samples.scenes;
       samples.objects += static_cast<double>(one.size()) / samples.scenes;
       samples.most_objects = std::max(samples.most_objects, static_cast<int>(one.size()));
     }
@@ -195,9 +234,10 @@ class Comparison {
     });
     for (scene::FeasibleScene& one : feasible) {
       const int kept = static_cast<int>(one.objects.size());
-      samples->valid += (one.valid ? 1.0 : 0.0) / samples->settled;
+      const bool whole = one.valid && data_.furniture().Holds(one.objects);
+      samples->valid += (whole ? 1.0 : 0.0) / samples->settled;
       samples->kept_objects += static_cast<double>(kept) / samples->settled;
-      if (one.valid) samples->most_kept_objects = std::max(samples->most_kept_objects, kept);
+      if (whole) samples->most_kept_objects = std::max(samples->most_kept_objects, kept);
       finished->push_back(std::move(one.objects));
     }
   }
@@ -264,7 +304,7 @@ ScenePostTrainingReport PostTrainScenes(const ScenePostTrainingRequest& request,
 
   steering::PostTrainingGoal goal;
   goal.rewards = [&](const SampledScenes& sampled) {
-    return RewardsOf(sampled, *objective.reward, asset_set);
+    return RewardsOf(sampled, *objective.reward, reference.furniture(), asset_set);
   };
   goal.accuracy = [&](const SampledScenes& sampled) {
     return reference.Accuracy(sampled, kQuickRuns, request.options.seed);

@@ -21,7 +21,7 @@ struct ScenePostTrainingRequest {
   std::string prompt;
   steering::PostTrainingOptions options;
   // The chosen checkpoint's classifier accuracy is at most this, 0.5 to 1.
-  double largest_accuracy = 0.99;
+  double largest_accuracy = 0.95;
   int compared_scenes = 256;  // samples before and after
   int settled_scenes = 64;    // of them that go through physics
   std::filesystem::path output;
@@ -34,9 +34,10 @@ struct PostTrainingSamples {
   double reward = 0.0;        // mean
   double objects = 0.0;       // mean number, furniture included
   int most_objects = 0;       // of a scene
+  double furnished = 0.0;     // share of scenes with the furniture of some scene of the data
   double accuracy = 0.0;      // of a classifier against data, 0.5 to 1
   int settled = 0;            // scenes that went through physics
-  double valid = 0.0;         // share of them that are feasible scenes
+  double valid = 0.0;         // share of them that are feasible and furnished
   double kept_objects = 0.0;  // mean number of objects after physics, furniture included
   int most_kept_objects = 0;  // of a scene
 };
@@ -56,10 +57,10 @@ struct ScenePostTrainingReport {
 
 // Post-trains a model of scenes for a reward (steering::PostTrain), and compares samples before,
 // with as many entries as the model had, and after. Rewards that need physics see each scene after
-// scene::MakeFeasible, in which what it drops is not feasible. Writes model.pt, the checkpoints,
-// rounds.csv, reward.svg, before_after.png and report.json. Resumes in an existing folder if the
-// trainer's options ask for it. Throws core::Error for an objective, a model or data that do not
-// fit, or an existing output.
+// scene::MakeFeasible, in which what it drops is not feasible; scenes without the furniture of
+// their type have the reward 0. Writes model.pt, the checkpoints, rounds.csv, reward.svg,
+// before_after.png and report.json. Resumes in an existing folder if the trainer's options ask for
+// it. Throws core::Error for an objective, a model or data that do not fit, or an existing output.
 ScenePostTrainingReport PostTrainScenes(const ScenePostTrainingRequest& request,
                                         core::Progress* progress);
 

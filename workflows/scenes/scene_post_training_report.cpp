@@ -19,9 +19,10 @@ std::string FormattedLine(const char* format, ...) {
 }
 
 std::string SamplesLine(const char* name, const PostTrainingSamples& samples) {
-  return FormattedLine("%-7s %8.2f %8.2f %8d %8.1f %8.0f %8.2f %8d\n", name, samples.reward,
-                       samples.objects, samples.most_objects, 100.0 * samples.accuracy,
-                       100.0 * samples.valid, samples.kept_objects, samples.most_kept_objects);
+  return FormattedLine("%-7s %8.2f %8.2f %8d %10.0f %8.1f %8.0f %8.2f %8d\n", name, samples.reward,
+                       samples.objects, samples.most_objects, 100.0 * samples.furnished,
+                       100.0 * samples.accuracy, 100.0 * samples.valid, samples.kept_objects,
+                       samples.most_kept_objects);
 }
 
 core::OrderedJson SamplesJson(const PostTrainingSamples& samples) {
@@ -30,6 +31,7 @@ core::OrderedJson SamplesJson(const PostTrainingSamples& samples) {
   json["reward"] = samples.reward;
   json["objects"] = samples.objects;
   json["most_objects"] = samples.most_objects;
+  json["furnished"] = samples.furnished;
   json["classifier_accuracy"] = samples.accuracy;
   json["settled"] = samples.settled;
   json["valid"] = samples.valid;
@@ -95,7 +97,7 @@ std::string PostTrainingTable(const ScenePostTrainingReport& report) {
       chosen.round, 100.0 * report.largest_accuracy, 100.0 * chosen.score.accuracy);
   text += FormattedLine("objects in the data: mean %.2f, most %d\n", report.data_objects,
                         report.data_most_objects);
-  text += "samples   reward  objects     most  class.%    valid%    after     most\n";
+  text += "samples   reward  objects     most furnished%  class.%   valid%    after     most\n";
   text += SamplesLine("before", report.before) + SamplesLine("after", report.after);
   text +=
       FormattedLine("time: sampling %.0f s, rewards %.0f s, updates %.0f s, checkpoints %.0f s\n",
