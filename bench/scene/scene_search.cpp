@@ -86,6 +86,7 @@ class SearchBench {
     options.steps = arguments_.steps;
     options.eta = arguments_.eta;
     options.seed = seed;
+    options.one_by_one = true;
     core::Progress progress;
     return model_.Inpaint(tokens, mask, options, &progress);
   }
@@ -163,9 +164,9 @@ class SearchBench {
     draw(random_curves_, "random");
     draw(curves_, "search");
     return core::PlotPage("Scene search: best so far by iteration, blue; random samples, grey",
-                    ".search{fill:none;stroke:#1f6fb2;stroke-width:2}"
-                    ".random{fill:none;stroke:#999;stroke-width:2}",
-                    body, 420.0);
+                          ".search{fill:none;stroke:#1f6fb2;stroke-width:2}"
+                          ".random{fill:none;stroke:#999;stroke-width:2}",
+                          body, 420.0);
   }
 
   const Arguments& arguments_;

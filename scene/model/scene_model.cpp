@@ -37,7 +37,66 @@ struct SceneModel::Network {
     }
     return Encode(prompts);
   }
+
+  // Inpaints scenes first .. first + some - 1 as one batch.
+  std::vector<float> InpaintBatch(const std::vector<float>& given, const InpaintingMask& mask,
+                                  const SampleOptions& options, int first, int some) const;
+  std::vector<float> InpaintOneByOne(const std::vector<float>& given, const InpaintingMask& mask,
+                                     const SampleOptions& options, int count,
+                                     core::Progress* progress) const;
 };
+
+std::vector<float> SceneModel::Network::InpaintBatch(const std::vector<float>& given,
+                                                     const InpaintingMask& mask,
+                                                     const SampleOptions& options, int first,
+                                                     int some) const {
+  StepOptions step;
+  step.eta = options.eta;
+  if (!options.prompts.empty() && options.guidance > 0.0) {
+    step.guidance = {options.guidance, Encode({""})};
+  }
+  const SceneDiffusion diffusion(metadata.options, metadata.vocabulary.ClassCount());
+  std::vector<int> times =
+      diffusion.Times(options.steps == 0 ? metadata.options.diffusion_steps : options.steps);
+  times.push_back(-1);
+  // Each batch samples from its own stream: sampling more scenes does not change the first ones.
+  core::Rng rng = core::StreamRng(options.seed, static_cast<std::uint64_t>(first));
+  const at::Generator generator = at::detail::createCPUGenerator(rng());
+  const at::Generator clamp_generator = at::detail::createCPUGenerator(rng());
+  const KeptTokens kept(given, mask, first, some, metadata.vocabulary, metadata.range, device);
+  NoisyScenes scenes = diffusion.Noise(some, metadata.vocabulary.entries, generator);
+  scenes.poses = scenes.poses.to(device);
+  scenes.classes = scenes.classes.to(device);
+  if (metadata.options.text) scenes.text = EncodePrompts(options, first, some);
+  step.forbidden = kept.forbidden();
+  for (size_t i = 0; i + 1 < times.size(); ++i) {
+    core::CheckCancelled();
+    kept.Clamp(diffusion, options.clamping, times[i], clamp_generator, &scenes);
+    diffusion.Step(denoiser.get(), times[i], times[i + 1], step, generator, &scenes);
+  }
+  std::vector<float> tokens =
+      TokensOf(diffusion.Clean(scenes, kept.forbidden()), metadata.vocabulary, metadata.range);
+  kept.Restore(&tokens);
+  return tokens;
+}
+
+std::vector<float> SceneModel::Network::InpaintOneByOne(const std::vector<float>& given,
+                                                        const InpaintingMask& mask,
+                                                        const SampleOptions& options, int count,
+                                                        core::Progress* progress) const {
+  std::vector<std::vector<float>> parts(static_cast<size_t>(count));
+  // A single share would use all threads, and another order of summation.
+  nn::ForEachShare(std::max(2, count), [&](int i) {
+    if (i >= count) return;
+    parts[static_cast<size_t>(i)] = InpaintBatch(given, mask, options, i, 1);
+    progress->Advance();
+  });
+  std::vector<float> tokens;
+  for (const std::vector<float>& part : parts) {
+    tokens.insert(tokens.end(), part.begin(), part.end());
+  }
+  return tokens;
+}
 
 namespace {
 
@@ -179,38 +238,12 @@ std::vector<float> SceneModel::Inpaint(const std::vector<float>& given, const In
   }
   nn::PrepareForWork();
   const torch::NoGradGuard no_gradient;
-  StepOptions step;
-  step.eta = options.eta;
-  if (!options.prompts.empty() && options.guidance > 0.0) {
-    step.guidance = {options.guidance, network_->Encode({""})};
-  }
-  const SceneDiffusion diffusion(metadata.options, metadata.vocabulary.ClassCount());
-  std::vector<int> times =
-      diffusion.Times(options.steps == 0 ? metadata.options.diffusion_steps : options.steps);
-  times.push_back(-1);
   const int count = static_cast<int>(mask.pose.size()) / metadata.vocabulary.entries;
+  if (options.one_by_one) return network_->InpaintOneByOne(given, mask, options, count, progress);
   std::vector<float> tokens;
   for (int first = 0; first < count; first += options.batch) {
     const int some = std::min(options.batch, count - first);
-    // Each batch samples from its own stream: sampling more scenes does not change the first ones.
-    core::Rng rng = core::StreamRng(options.seed, static_cast<std::uint64_t>(first));
-    const at::Generator generator = at::detail::createCPUGenerator(rng());
-    const at::Generator clamp_generator = at::detail::createCPUGenerator(rng());
-    const KeptTokens kept(given, mask, first, some, metadata.vocabulary, metadata.range,
-                          network_->device);
-    NoisyScenes scenes = diffusion.Noise(some, metadata.vocabulary.entries, generator);
-    scenes.poses = scenes.poses.to(network_->device);
-    scenes.classes = scenes.classes.to(network_->device);
-    if (metadata.options.text) scenes.text = network_->EncodePrompts(options, first, some);
-    step.forbidden = kept.forbidden();
-    for (size_t i = 0; i + 1 < times.size(); ++i) {
-      core::CheckCancelled();
-      kept.Clamp(diffusion, options.clamping, times[i], clamp_generator, &scenes);
-      diffusion.Step(network_->denoiser.get(), times[i], times[i + 1], step, generator, &scenes);
-    }
-    std::vector<float> part =
-        TokensOf(diffusion.Clean(scenes, kept.forbidden()), metadata.vocabulary, metadata.range);
-    kept.Restore(&part);
+    const std::vector<float> part = network_->InpaintBatch(given, mask, options, first, some);
     tokens.insert(tokens.end(), part.begin(), part.end());
     for (int i = 0; i < some; ++i) progress->Advance();
   }

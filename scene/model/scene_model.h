@@ -22,6 +22,9 @@ struct SampleOptions {
   // The share of the posterior's noise that poses receive (1: as trained; 0: none, DDIM).
   double eta = 1.0;
   int batch = 64;  // scenes per batch
+  // Each scene is sampled alone, by one thread, from a random stream of its own: results are
+  // bit-identical for any number of threads, and a few scenes take less time than as a batch.
+  bool one_by_one = false;
   std::uint64_t seed = 1;
   // The prompts of a model that reads them: scene i has prompts[i % prompts.size()], as
   // Prompt::Text() writes them; none: all scenes are unprompted.

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "scene/feasibility/contact_groups.h"
+#include "scene/feasibility/depenetration.h"
 
 namespace simwright::steering {
 namespace {
@@ -34,6 +35,7 @@ class SceneRepairer {
   std::vector<std::pair<int, scene::SceneObject>> Run() {
     placed_ = PlaceAmong(objects_, kept_, asset_set_, options_.placing);
     DropFarMoved();
+    Separate();
     CheckGroups();
     std::vector<std::pair<int, scene::SceneObject>> found;
     for (size_t i = 0; i < placed_.indices.size(); ++i) {
@@ -70,6 +72,22 @@ class SceneRepairer {
       stays[i] = kept_[index] || moved.head<2>().norm() <= options_.most_sideways;
     }
     Keep(stays);
+  }
+
+  // Separates the new objects from what they have sunk into while settling, by fractions of a
+  // millimetre.
+  void Separate() {
+    std::vector<scene::ProjectedBody> bodies;
+    for (size_t i = 0; i < placed_.objects.size(); ++i) {
+      const scene::SceneObject& object = placed_.objects[i];
+      const bool fixed = object.welded || kept_[static_cast<size_t>(placed_.indices[i])] != 0;
+      bodies.push_back({&asset_set_.At(object.category).parts, object.world_from_object, fixed});
+    }
+    const scene::Projection apart =
+        ResolvePenetrations(bodies, options_.placing.feasibility.projection);
+    for (size_t i = 0; i < bodies.size(); ++i) {
+      placed_.objects[i].world_from_object.pretranslate(apart.shifts[i]);
+    }
   }
 
   // Checks each group of touching objects that has a new one, while the others are held.
@@ -116,7 +134,9 @@ class SceneRepairer {
 scene::ConstrainedOptions RepairOptions::DefaultPlacing() {
   scene::ConstrainedOptions options;
   options.feasibility.lowering = 0.25;
-  options.feasibility.passes = 3;
+  options.feasibility.passes = 1;
+  options.feasibility.settling.watch = 0.0;  // CheckFree follows
+  options.feasibility.settling.time_step = 2e-3;
   return options;
 }
 

@@ -16,7 +16,7 @@ namespace simwright::steering {
 struct SearchOptions {
   int iterations = 500;
   int branching = 3;         // children per expanded node, sampled in one batch
-  double exploration = 1.4;  // of UctValue
+  double exploration = 0.2;  // of UctValue; 1.4 in the paper, whose rewards are counts of objects
   bool scaled = true;        // UCT compares rewards on a scale of 0 to 1 (SearchTree)
   // True: the reward of each child is backpropagated, since all are judged for their masks anyway;
   // false: that of one at random, as published.
