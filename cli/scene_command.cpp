@@ -8,6 +8,7 @@
 #include "cli/scene_export_command.h"
 #include "cli/scene_model_commands.h"
 #include "cli/scene_posttrain_command.h"
+#include "cli/scene_search_command.h"
 #include "cli/scene_steering_commands.h"
 #include "core/error.h"
 #include "core/json.h"
@@ -101,6 +102,7 @@ void AddScene(CLI::App* app, CommonOptions* common, Run* run) {
   AddSceneRearrange(scene, common, run);
   AddScenePosttrain(scene, common, run);
   AddSceneCertify(scene, common, run);
+  AddSceneSearch(scene, common, run);
   AddSceneEvaluate(scene, common, run);
   AddSceneFeatures(scene, common, run);
   AddSceneExport(scene, common, run);

@@ -9,7 +9,7 @@
 
 namespace simwright::steering {
 
-// Says which entries of a scene a search synthesizes anew; independent of its reward.
+// Says which entries of a scene a search synthesizes again; independent of its reward.
 class MaskGenerator {
  public:
   virtual ~MaskGenerator() = default;

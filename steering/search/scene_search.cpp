@@ -42,6 +42,7 @@ bool SearchOptions::IsValid(std::string* error) const {
   }
   if (leaves < 1 || leaves > 100) return fails("1 to 100 leaves can be expanded together");
   if (fill < 0) return fails("the number of entries to fill must be at least 0");
+  if (most_objects < 0) return fails("the most objects of a scene must be at least 0");
   return true;
 }
 
@@ -80,14 +81,26 @@ SceneSearch::Draft SceneSearch::UnconditionalDraft() const {
   return {TokenScene::Empty(vocabulary_), all, std::vector<char>(all.size(), 0)};
 }
 
-// Returns the scene of a leaf with what child number `child` synthesizes anew. Masked objects
+// Returns the number of padding entries that a child turns into objects.
+int SceneSearch::PaddingToFill(const Draft& draft, int child) const {
+  int padding = options_.fill >> std::min(child, 30);
+  if (options_.most_objects > 0) {
+    int there = 0;
+    for (const scene::SceneObject& object : draft.scene.Judged(vocabulary_).objects) {
+      there += !object.welded;
+    }
+    padding = std::min(padding, options_.most_objects - there);
+  }
+  return options_.fill > 0 ? std::max(1, padding) : 0;
+}
+
+// Returns the scene of a leaf with what child number `child` synthesizes again. Masked objects
 // become padding first: what is masked says nothing to the model.
 SceneSearch::Draft SceneSearch::DraftOf(int leaf, int child) const {
   Draft draft{state_.scenes[static_cast<size_t>(leaf)], {}, {}};
   draft.synthesized = mask_.Mask(draft.scene);
   draft.filled.assign(draft.synthesized.size(), 0);
-  int padding = options_.fill >> std::min(child, 30);
-  if (options_.fill > 0) padding = std::max(1, padding);
+  int padding = PaddingToFill(draft, child);
   for (int entry = 0; entry < vocabulary_.entries; ++entry) {
     const auto index = static_cast<size_t>(entry);
     if (!draft.synthesized[index]) continue;

@@ -26,6 +26,8 @@ struct SearchOptions {
   // must not be the empty one; each further child fills half as many, and at least one. 0: all
   // masked padding is synthesized, and the model chooses what becomes an object, as published.
   int fill = 4;
+  // The most objects of a scene but furniture that filling aims at; 0: no limit.
+  int most_objects = 0;
   // The classes that synthesized entries may have, one flag per class but the empty one; empty:
   // all.
   std::vector<char> allowed = {};
@@ -106,6 +108,7 @@ class SceneSearch {
   };
   void BeginTree(TokenScene root);
   Draft DraftOf(int leaf, int child) const;
+  int PaddingToFill(const Draft& draft, int child) const;
   Draft UnconditionalDraft() const;
   void AppendTo(const Draft& draft, std::vector<float>* tokens, scene::InpaintingMask* mask) const;
   // Samples, repairs and judges the drafts.

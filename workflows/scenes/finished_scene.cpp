@@ -1,0 +1,86 @@
+#include "workflows/scenes/finished_scene.h"
+
+#include <map>
+#include <numeric>
+
+#include "core/files.h"
+#include "scene/dataset/scene_dataset.h"
+#include "scene/dataset/tokens.h"
+#include "scene/feasibility/constrained_scene.h"
+#include "workflows/scenes/scene_export.h"
+
+namespace simwright::workflows {
+namespace fs = std::filesystem;
+namespace {
+
+// Drops what moves in Bullet with everything free.
+void DropUnstable(const scene::AssetSet& asset_set, FinishedScene* finished) {
+  scene::ConstrainedScene checked;
+  checked.objects = finished->objects;
+  checked.indices.resize(checked.objects.size());
+  std::iota(checked.indices.begin(), checked.indices.end(), 0);
+  CheckFree(std::vector<char>(checked.objects.size(), 0), asset_set, {}, &checked);
+  finished->dropped += checked.dropped;
+  finished->penetration = checked.penetration;
+  finished->objects = std::move(checked.objects);
+}
+
+SceneStability CheckInBothEngines(const std::vector<scene::SceneObject>& objects,
+                                  const scene::Vocabulary& vocabulary, const fs::path& assets,
+                                  core::Progress* progress) {
+  const core::TemporaryFolder folder;
+  const fs::path dataset = folder.path() / "scenes";
+  fs::create_directories(dataset);
+  WriteSingleScene(objects, vocabulary, {0, 0, "{}", "{}", ""},
+                   {0, 0, 0, true, true, 0.0, 0.0, 0.0}, dataset / scene::ShardName(0));
+  SceneExportRequest request;
+  request.dataset = dataset;
+  request.formats = {"mjcf"};
+  request.output = folder.path() / "export";
+  request.assets = assets;
+  request.check = true;
+  return ExportScenes(request, progress).checks.front();
+}
+
+// Removes the objects that moved farthest in an engine; returns false if there are none.
+bool DropFarthest(const SceneStability& stability, FinishedScene* finished) {
+  std::map<std::string, int> counts;
+  std::vector<scene::SceneObject> left;
+  for (const scene::SceneObject& object : finished->objects) {
+    const std::string name = object.category + "_" + std::to_string(counts[object.category]++);
+    const bool moved = (!stability.StableInMujoco() && name == stability.mujoco.name) ||
+                       (!stability.StableInBullet() && name == stability.bullet.name);
+    if (object.welded || !moved) left.push_back(object);
+  }
+  const size_t dropped = finished->objects.size() - left.size();
+  finished->dropped += static_cast<int>(dropped);
+  finished->objects = std::move(left);
+  return dropped > 0;
+}
+
+}  // namespace
+
+void WriteSingleScene(const std::vector<scene::SceneObject>& objects,
+                      const scene::Vocabulary& vocabulary, const scene::ShardOrigin& origin,
+                      const scene::SceneAttempt& attempt, const fs::path& path) {
+  scene::SceneShard part{vocabulary, origin, {}, {attempt}, {}};
+  part.tokens.resize(static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth()));
+  EncodeScene(objects, vocabulary, part.tokens.data());
+  scene::WriteShard(part, path);
+}
+
+FinishedScene FinishScene(const std::vector<scene::SceneObject>& objects,
+                          const scene::Vocabulary& vocabulary, const scene::AssetSet& asset_set,
+                          const fs::path& assets, core::Progress* progress) {
+  constexpr int kMostRounds = 8;
+  FinishedScene finished;
+  finished.objects = objects;
+  for (int round = 0; round < kMostRounds; ++round) {
+    DropUnstable(asset_set, &finished);
+    finished.stability = CheckInBothEngines(finished.objects, vocabulary, assets, progress);
+    if (finished.stability.Still() || !DropFarthest(finished.stability, &finished)) break;
+  }
+  return finished;
+}
+
+}  // namespace simwright::workflows

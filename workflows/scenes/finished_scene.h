@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/progress.h"
+#include "scene/asset_set/asset_set.h"
+#include "scene/dataset/scene_shard.h"
+#include "scene/grammar/scene_sample.h"
+#include "workflows/scenes/scene_stability.h"
+
+namespace simwright::workflows {
+
+// A scene that stands still in both engines, or as much of it as was found to.
+struct FinishedScene {
+  std::vector<scene::SceneObject> objects;
+  SceneStability stability;
+  int dropped = 0;           // objects that moved
+  double penetration = 0.0;  // m, the deepest
+};
+
+// Writes a shard with one scene.
+void WriteSingleScene(const std::vector<scene::SceneObject>& objects,
+                      const scene::Vocabulary& vocabulary, const scene::ShardOrigin& origin,
+                      const scene::SceneAttempt& attempt, const std::filesystem::path& path);
+
+// Checks a scene for two seconds in Bullet, with all objects free, and as `scene export --check`
+// does in Bullet and MuJoCo; drops the objects that move until all others stand still. `assets`: a
+// folder with an asset folder per category. Throws core::Error as ExportScenes does.
+FinishedScene FinishScene(const std::vector<scene::SceneObject>& objects,
+                          const scene::Vocabulary& vocabulary, const scene::AssetSet& asset_set,
+                          const std::filesystem::path& assets, core::Progress* progress);
+
+}  // namespace simwright::workflows
