@@ -38,7 +38,7 @@ void ValidateSearch(const SceneSearchRequest& request) {
     throw core::Error("the state must be saved every 1 or more iterations", "--save-every");
   }
   if (request.weights.empty() == request.type.empty()) {
-    throw core::Error("give either weights or a scene type to search with", "",
+    throw core::Error("give either weights or a scene type, not both", "",
                       "name a weights file, or a --type with shipped weights");
   }
 }
