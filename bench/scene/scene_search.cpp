@@ -2,7 +2,8 @@
 // time of an iteration, the best of as many unconditional samples, and whether the finished scene
 // passes the check of two seconds. Draws the curves.
 //   simwright scene generate --type dimsum --count 12 --seed 77 -o out/dimsum
-//   bench_scene_search --weights models/scenes/dimsum.pt --assets out/dimsum/assets
+//   bench_scene_search --weights models/scenes/dimsum.pt --assets out/dimsum/assets --random
+// OPENBLAS_CORETYPE and OMP_WAIT_POLICY are set as in docs/figures.md.
 #include <chrono>
 #include <cstdio>
 
@@ -53,7 +54,7 @@ class SearchBench {
     std::printf("%4s %10s %10s %8s %8s %9s %9s %9s %8s\n", "seed", "iteration", "best", "random",
                 "checked", "s/iter", "model s", "physics s", "samples/s");
     int reached = 0;
-    scene::SceneShard part{vocabulary(), {}, {}, {}, {}};
+    scene::SceneShard part{vocabulary(), {0, 0, "{}", "{}", "bench"}, {}, {}, {}};
     for (int i = 0; i < arguments_.seeds; ++i) {
       const int seed = arguments_.first_seed + i;
       const Outcome found = Search(static_cast<std::uint64_t>(seed), false, 0);

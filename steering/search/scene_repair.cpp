@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "scene/feasibility/contact_groups.h"
 #include "scene/feasibility/depenetration.h"
 
@@ -16,6 +17,20 @@ void RequireFinite(const TokenScene& scene) {
                    [](float x) { return std::isfinite(x); })) {
     throw core::Error("the model gives numbers that are not finite", "", "train it again");
   }
+}
+
+// Checks one group of touching objects (scene::ContactGroups) while all other objects are held.
+// `kept`: flags by the indices of `whole`. The result lacks the objects that moved or disturbed.
+scene::ConstrainedScene CheckGroup(const scene::ConstrainedScene& whole,
+                                   const std::vector<int>& groups, int group,
+                                   const std::vector<char>& kept, const scene::AssetSet& asset_set,
+                                   const scene::ConstrainedOptions& options) {
+  scene::ConstrainedScene held = whole;
+  for (size_t i = 0; i < groups.size(); ++i) {
+    held.objects[i].welded = held.objects[i].welded || groups[i] != group;
+  }
+  CheckFree(kept, asset_set, options, &held);
+  return held;
 }
 
 // One scene whose synthesized objects look for a place. Objects are numbered as decoded.
@@ -100,11 +115,8 @@ class SceneRepairer {
     to_check.erase(-1);
     std::vector<char> stays(groups.size(), 1);
     for (const int group : to_check) {
-      scene::ConstrainedScene held = placed_;
-      for (size_t i = 0; i < groups.size(); ++i) {
-        held.objects[i].welded = held.objects[i].welded || groups[i] != group;
-      }
-      CheckFree(kept_, asset_set_, options_.placing, &held);
+      const scene::ConstrainedScene held =
+          CheckGroup(placed_, groups, group, kept_, asset_set_, options_.placing);
       const std::set<int> left(held.indices.begin(), held.indices.end());
       for (size_t i = 0; i < groups.size(); ++i) {
         if (left.count(placed_.indices[i]) == 0) stays[i] = 0;
@@ -136,6 +148,9 @@ scene::ConstrainedOptions RepairOptions::DefaultPlacing() {
   options.feasibility.lowering = 0.25;
   options.feasibility.passes = 1;
   options.feasibility.settling.watch = 0.0;  // CheckFree follows
+  const double whole = options.check.watch;
+  options.check.watch = 0.25;
+  options.check.stable *= options.check.watch / whole;
   options.feasibility.settling.time_step = 2e-3;
   return options;
 }
@@ -195,12 +210,21 @@ bool ConfirmScene(const scene::Vocabulary& vocabulary, const scene::AssetSet& as
     numbers.push_back(static_cast<int>(i));
   }
   const std::vector<char> kept(numbers.size(), 0);
-  CheckFree(kept, asset_set, options.placing, &checked);
-  const std::set<int> left(checked.indices.begin(), checked.indices.end());
+  const std::vector<int> groups = ContactGroups(checked.objects, asset_set);
+  const int count = groups.empty() ? 0 : *std::max_element(groups.begin(), groups.end()) + 1;
+  std::vector<scene::ConstrainedScene> results(static_cast<size_t>(count));
+  scene::ConstrainedOptions full = options.placing;
+  full.check = scene::ConstrainedOptions::FreeCheckOptions();
+  core::ParallelFor(count, [&](int group) {
+    results[static_cast<size_t>(group)] = CheckGroup(checked, groups, group, kept, asset_set, full);
+  });
   bool confirmed = true;
   for (size_t k = 0; k < numbers.size(); ++k) {
-    const bool welded = judged.objects[static_cast<size_t>(numbers[k])].welded;
-    if (welded || (checked.stable && left.count(static_cast<int>(k)) > 0)) continue;
+    if (groups[k] < 0) continue;
+    const scene::ConstrainedScene& result = results[static_cast<size_t>(groups[k])];
+    const bool stays =
+        std::binary_search(result.indices.begin(), result.indices.end(), static_cast<int>(k));
+    if (result.stable && stays) continue;
     scene->unstable[static_cast<size_t>(entries[static_cast<size_t>(numbers[k])])] = 1;
     confirmed = false;
   }

@@ -81,33 +81,40 @@ SceneSearch::Draft SceneSearch::UnconditionalDraft() const {
   return {TokenScene::Empty(vocabulary_), all, std::vector<char>(all.size(), 0)};
 }
 
-// Returns the number of padding entries that a child turns into objects.
-int SceneSearch::PaddingToFill(const Draft& draft, int child) const {
-  int padding = options_.fill >> std::min(child, 30);
-  if (options_.most_objects > 0) {
-    int there = 0;
-    for (const scene::SceneObject& object : draft.scene.Judged(vocabulary_).objects) {
-      there += !object.welded;
-    }
-    padding = std::min(padding, options_.most_objects - there);
-  }
-  return options_.fill > 0 ? std::max(1, padding) : 0;
-}
-
 // Returns the scene of a leaf with what child number `child` synthesizes again. Masked objects
-// become padding first: what is masked says nothing to the model.
+// become padding first: what is masked says nothing to the model. Where the number of objects is
+// limited, they are filled like padding, else the model chooses what they become.
 SceneSearch::Draft SceneSearch::DraftOf(int leaf, int child) const {
   Draft draft{state_.scenes[static_cast<size_t>(leaf)], {}, {}};
   draft.synthesized = mask_.Mask(draft.scene);
   draft.filled.assign(draft.synthesized.size(), 0);
-  int padding = PaddingToFill(draft, child);
+  if (options_.fill == 0) return Blanked(std::move(draft));
+  const bool limited = options_.most_objects > 0;
+  int padding = std::max(1, options_.fill >> std::min(child, 30)), there = 0;
+  const JudgedScene judged = draft.scene.Judged(vocabulary_);
+  const std::vector<int> entries = draft.scene.ObjectEntries(vocabulary_);
+  for (size_t i = 0; i < entries.size(); ++i) {
+    const bool masked = draft.synthesized[static_cast<size_t>(entries[i])] != 0;
+    there += !judged.objects[i].welded && !masked;
+    padding += limited && masked;
+  }
+  if (limited) padding = std::max(1, std::min(padding, options_.most_objects - there));
   for (int entry = 0; entry < vocabulary_.entries; ++entry) {
     const auto index = static_cast<size_t>(entry);
-    if (!draft.synthesized[index]) continue;
-    if (!draft.scene.IsEmpty(entry, vocabulary_)) {
+    if (!draft.synthesized[index] || (!limited && !draft.scene.IsEmpty(entry, vocabulary_))) {
+      continue;
+    }
+    draft.filled[index] = draft.synthesized[index] = padding-- > 0;
+    if (!draft.filled[index]) draft.scene.Set(entry, nullptr, vocabulary_);
+  }
+  return Blanked(std::move(draft));
+}
+
+// Returns the draft with what it synthesizes as padding.
+SceneSearch::Draft SceneSearch::Blanked(Draft draft) const {
+  for (int entry = 0; entry < vocabulary_.entries; ++entry) {
+    if (draft.synthesized[static_cast<size_t>(entry)]) {
       draft.scene.Set(entry, nullptr, vocabulary_);
-    } else if (options_.fill > 0) {
-      draft.filled[index] = draft.synthesized[index] = padding-- > 0;
     }
   }
   return draft;

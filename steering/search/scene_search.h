@@ -108,7 +108,7 @@ class SceneSearch {
   };
   void BeginTree(TokenScene root);
   Draft DraftOf(int leaf, int child) const;
-  int PaddingToFill(const Draft& draft, int child) const;
+  Draft Blanked(Draft draft) const;
   Draft UnconditionalDraft() const;
   void AppendTo(const Draft& draft, std::vector<float>* tokens, scene::InpaintingMask* mask) const;
   // Samples, repairs and judges the drafts.
