@@ -223,13 +223,30 @@ bool SceneSearch::Finished() const {
          (!options_.random && tree_.Select() < 0);
 }
 
+bool SceneSearch::Confirm(TokenScene* scene) const {
+  if (!ConfirmScene(vocabulary_, asset_set_, repair_, scene)) return false;
+  if (!final_check_ || RewardOf(*scene) < reward_.Goal()) return true;
+  const JudgedScene judged = scene->Judged(vocabulary_);
+  const std::vector<int> entries = scene->ObjectEntries(vocabulary_);
+  std::vector<scene::SceneObject> objects;
+  std::vector<int> checked;  // their entries
+  for (size_t i = 0; i < entries.size(); ++i) {
+    if (!judged.IsFeasible(i)) continue;
+    objects.push_back(judged.objects[i]);
+    checked.push_back(entries[i]);
+  }
+  const std::vector<size_t> moving = final_check_(objects);
+  for (const size_t i : moving) scene->unstable[static_cast<size_t>(checked[i])] = 1;
+  return moving.empty();
+}
+
 void SceneSearch::Consider(int node) {
   const double claimed = tree_.nodes()[static_cast<size_t>(node)].reward;
   if (state_.best >= 0 && claimed <= state_.best_reward) return;
   if (options_.confirms) {
     const SearchTimer timer(&physics_seconds_);
     TokenScene& scene = state_.scenes[static_cast<size_t>(node)];
-    if (!ConfirmScene(vocabulary_, asset_set_, repair_, &scene)) {
+    if (!Confirm(&scene)) {
       tree_.SetReward(node, RewardOf(scene), IsTerminal(scene));
     }
   }
@@ -274,10 +291,16 @@ void SceneSearch::Iterate() {
     }
   }
   Synthesize(seed, &drafts);
-  for (size_t i = 0; i < leaves.size(); ++i) {
-    const auto first = std::make_move_iterator(drafts.begin() +
-                                               static_cast<std::ptrdiff_t>(i) * options_.branching);
-    AddChildren(leaves[i], {first, first + options_.branching}, &rng);
+  const SearchState before = State();
+  try {
+    for (size_t i = 0; i < leaves.size(); ++i) {
+      const auto first = std::make_move_iterator(drafts.begin() + static_cast<std::ptrdiff_t>(i) *
+                                                                      options_.branching);
+      AddChildren(leaves[i], {first, first + options_.branching}, &rng);
+    }
+  } catch (...) {  // a check was interrupted: the iteration has not happened
+    Resume(before);
+    throw;
   }
 }
 

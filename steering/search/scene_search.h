@@ -45,6 +45,10 @@ struct SearchOptions {
 using Inpainter = std::function<std::vector<float>(const std::vector<float>&,
                                                    const scene::InpaintingMask&, std::uint64_t)>;
 
+// A last check of the objects of a scene that reaches the goal; returns the indices of those that
+// move. It may be slow, as a check in a second simulator is.
+using FinalCheck = std::function<std::vector<size_t>(const std::vector<scene::SceneObject>&)>;
+
 // An iteration: the expansion of one leaf.
 struct SearchRecord {
   double best = 0.0;    // the largest confirmed reward so far
@@ -74,6 +78,10 @@ class SceneSearch {
   SceneSearch(const scene::Vocabulary& vocabulary, const scene::AssetSet& asset_set,
               const MaskGenerator& mask, const SceneReward& reward, Inpainter inpainter,
               const SearchOptions& options, const RepairOptions& repair = {});
+
+  // Sets a check that scenes which reach the goal pass after ConfirmScene. The objects that it
+  // finds become unstable, and the search goes on.
+  void SetFinalCheck(FinalCheck check) { final_check_ = std::move(check); }
 
   // Starts with an unconditional sample, with a given scene, which is judged but not repaired, or
   // where a search stopped. Throws core::Error for a state that does not fit the vocabulary.
@@ -118,6 +126,8 @@ class SceneSearch {
   void AddChildren(int leaf, std::vector<Draft> drafts, core::Rng* rng);
   // Makes the node the best one if it is and passes the check; corrects its reward if it does not.
   void Consider(int node);
+  // Runs the checks of a scene that would be the best; returns false if they set a flag.
+  bool Confirm(TokenScene* scene) const;
   double RewardOf(const TokenScene& scene) const;
   bool IsTerminal(const TokenScene& scene) const;
 
@@ -126,6 +136,7 @@ class SceneSearch {
   const MaskGenerator& mask_;
   const SceneReward& reward_;
   Inpainter inpainter_;
+  FinalCheck final_check_;
   SearchOptions options_;
   RepairOptions repair_;
   SearchTree tree_;

@@ -25,39 +25,6 @@ void DropUnstable(const scene::AssetSet& asset_set, FinishedScene* finished) {
   finished->objects = std::move(checked.objects);
 }
 
-SceneStability CheckInBothEngines(const std::vector<scene::SceneObject>& objects,
-                                  const scene::Vocabulary& vocabulary, const fs::path& assets,
-                                  core::Progress* progress) {
-  const core::TemporaryFolder folder;
-  const fs::path dataset = folder.path() / "scenes";
-  fs::create_directories(dataset);
-  WriteSingleScene(objects, vocabulary, {0, 0, "{}", "{}", ""},
-                   {0, 0, 0, true, true, 0.0, 0.0, 0.0}, dataset / scene::ShardName(0));
-  SceneExportRequest request;
-  request.dataset = dataset;
-  request.formats = {"mjcf"};
-  request.output = folder.path() / "export";
-  request.assets = assets;
-  request.check = true;
-  return ExportScenes(request, progress).checks.front();
-}
-
-// Removes the objects that moved farthest in an engine; returns false if there are none.
-bool DropFarthest(const SceneStability& stability, FinishedScene* finished) {
-  std::map<std::string, int> counts;
-  std::vector<scene::SceneObject> left;
-  for (const scene::SceneObject& object : finished->objects) {
-    const std::string name = object.category + "_" + std::to_string(counts[object.category]++);
-    const bool moved = (!stability.StableInMujoco() && name == stability.mujoco.name) ||
-                       (!stability.StableInBullet() && name == stability.bullet.name);
-    if (object.welded || !moved) left.push_back(object);
-  }
-  const size_t dropped = finished->objects.size() - left.size();
-  finished->dropped += static_cast<int>(dropped);
-  finished->objects = std::move(left);
-  return dropped > 0;
-}
-
 }  // namespace
 
 void WriteSingleScene(const std::vector<scene::SceneObject>& objects,
@@ -69,16 +36,52 @@ void WriteSingleScene(const std::vector<scene::SceneObject>& objects,
   scene::WriteShard(part, path);
 }
 
+SceneStability CheckInBothEngines(const std::vector<scene::SceneObject>& objects,
+                                  const scene::Vocabulary& vocabulary, const fs::path& assets) {
+  const core::TemporaryFolder folder;
+  const fs::path dataset = folder.path() / "scenes";
+  fs::create_directories(dataset);
+  WriteSingleScene(objects, vocabulary, {0, 0, "{}", "{}", ""},
+                   {0, 0, 0, true, true, 0.0, 0.0, 0.0}, dataset / scene::ShardName(0));
+  SceneExportRequest request;
+  request.dataset = dataset;
+  request.formats = {"mjcf"};
+  request.output = folder.path() / "export";
+  request.assets = assets;
+  request.check = true;
+  core::Progress silent;
+  return ExportScenes(request, &silent).checks.front();
+}
+
+std::vector<size_t> MovingObjects(const std::vector<scene::SceneObject>& objects,
+                                  const SceneStability& stability) {
+  std::map<std::string, int> counts;
+  std::vector<size_t> moving;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    const std::string& category = objects[i].category;
+    const std::string name = category + "_" + std::to_string(counts[category]++);
+    const bool moved = (!stability.StableInMujoco() && name == stability.mujoco.name) ||
+                       (!stability.StableInBullet() && name == stability.bullet.name);
+    if (moved && !objects[i].welded) moving.push_back(i);
+  }
+  return moving;
+}
+
 FinishedScene FinishScene(const std::vector<scene::SceneObject>& objects,
                           const scene::Vocabulary& vocabulary, const scene::AssetSet& asset_set,
-                          const fs::path& assets, core::Progress* progress) {
+                          const fs::path& assets) {
   constexpr int kMostRounds = 8;
   FinishedScene finished;
   finished.objects = objects;
   for (int round = 0; round < kMostRounds; ++round) {
     DropUnstable(asset_set, &finished);
-    finished.stability = CheckInBothEngines(finished.objects, vocabulary, assets, progress);
-    if (finished.stability.Still() || !DropFarthest(finished.stability, &finished)) break;
+    finished.stability = CheckInBothEngines(finished.objects, vocabulary, assets);
+    const std::vector<size_t> moving = MovingObjects(finished.objects, finished.stability);
+    if (moving.empty()) break;
+    for (size_t i = moving.size(); i-- > 0;) {
+      finished.objects.erase(finished.objects.begin() + static_cast<std::ptrdiff_t>(moving[i]));
+    }
+    finished.dropped += static_cast<int>(moving.size());
   }
   return finished;
 }

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/progress.h"
 #include "scene/asset_set/asset_set.h"
 #include "scene/dataset/scene_shard.h"
 #include "scene/grammar/scene_sample.h"
@@ -24,11 +23,22 @@ void WriteSingleScene(const std::vector<scene::SceneObject>& objects,
                       const scene::Vocabulary& vocabulary, const scene::ShardOrigin& origin,
                       const scene::SceneAttempt& attempt, const std::filesystem::path& path);
 
+// Checks a scene as `scene export --check` does. `assets`: a folder with an asset folder per
+// category. Throws core::Error as ExportScenes does.
+SceneStability CheckInBothEngines(const std::vector<scene::SceneObject>& objects,
+                                  const scene::Vocabulary& vocabulary,
+                                  const std::filesystem::path& assets);
+
+// Returns the indices of the free objects that moved farthest in an engine in which the scene does
+// not stand still; none if it does in both.
+std::vector<size_t> MovingObjects(const std::vector<scene::SceneObject>& objects,
+                                  const SceneStability& stability);
+
 // Checks a scene for two seconds in Bullet, with all objects free, and as `scene export --check`
 // does in Bullet and MuJoCo; drops the objects that move until all others stand still. `assets`: a
 // folder with an asset folder per category. Throws core::Error as ExportScenes does.
 FinishedScene FinishScene(const std::vector<scene::SceneObject>& objects,
                           const scene::Vocabulary& vocabulary, const scene::AssetSet& asset_set,
-                          const std::filesystem::path& assets, core::Progress* progress);
+                          const std::filesystem::path& assets);
 
 }  // namespace simwright::workflows

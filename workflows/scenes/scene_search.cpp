@@ -261,8 +261,8 @@ void SceneSearchRun::WriteResult(const steering::SceneSearch& search) {
   }
   const auto sampled = static_cast<int>(best.objects.size());
   if (!report_.interrupted) {
-    finished = FinishScene(finished.objects, vocabulary(), asset_set_, request_.output / "assets",
-                           progress_);
+    progress_->Stage("checking");
+    finished = FinishScene(finished.objects, vocabulary(), asset_set_, request_.output / "assets");
   }
   const auto count = static_cast<int>(finished.objects.size());
   report_.objects = count;
