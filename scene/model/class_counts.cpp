@@ -8,11 +8,11 @@ constexpr double kPieceUnit = 8.0;  // word pieces; divides the sum over a promp
 
 }  // namespace
 
-ClassCountsImpl::ClassCountsImpl(std::int64_t width, int classes) : classes_(classes) {
+ClassCountsImpl::ClassCountsImpl(std::int64_t width, int classes, bool text) : classes_(classes) {
   // Counts as such, whose differences to the wanted ones are linear, and their logarithms, whose
   // differences give the logits of the classes that are missing.
   from_counts_ = register_module("from_counts", torch::nn::Linear(2 * (classes + 1), 2 * width));
-  from_text_ = register_module("from_text", torch::nn::Linear(width, 2 * width));
+  if (text) from_text_ = register_module("from_text", torch::nn::Linear(width, 2 * width));
   out_ = register_module("out", torch::nn::Linear(2 * width, width));
 }
 

@@ -11,8 +11,8 @@ namespace simwright::scene {
 // sums has them from the start.
 class ClassCountsImpl : public torch::nn::Module {
  public:
-  // `classes`: K, without the mask.
-  ClassCountsImpl(std::int64_t width, int classes);
+  // `classes`: K, without the mask. `text`: true if there are prompts.
+  ClassCountsImpl(std::int64_t width, int classes, bool text);
 
   // classes (B x N) int64, 0 .. K; `text` may be undefined. Returns (B x width), for the
   // conditioning vector of the blocks.

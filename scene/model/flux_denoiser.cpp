@@ -67,7 +67,9 @@ FluxDenoiser::FluxDenoiser(const SceneModelOptions& options, int classes) {
   const ClassShapes shapes = RegisterShapes(options, classes, EntryWidth(width), width / 2);
   entry_ = register_module("entry", TokenInputHead(options, classes, shapes));
   time_ = register_module("time", TimeEmbedding(width));
-  if (options.HasClassCounts()) counts_ = register_module("counts", ClassCounts(width, classes));
+  if (options.HasClassCounts()) {
+    counts_ = register_module("counts", ClassCounts(width, classes, options.text));
+  }
   for (int i = 0; i < options.double_blocks; ++i) {
     double_blocks_->push_back(Stream(width, options.heads));
     if (options.text) text_blocks_->push_back(Stream(width, options.heads));

@@ -108,6 +108,10 @@ class SceneSteering {
     const StepTimer timer(&report_.model_seconds);
     const bool several = !scene::ReadSceneModelMetadata(weights_).types.empty();
     std::string type = request_.type;
+    if (!several && !request_.weights.empty() && !type.empty()) {
+      throw core::Error("the model has one scene type only", "--model, --type",
+                        "leave --type out, or give it without a model for the shipped weights");
+    }
     if (several && type.empty()) type = source_.type;
     return scene::SceneModel::Load(weights_, request_.text_encoder, type);
   }
