@@ -1,5 +1,6 @@
 #include "workflows/scenes/finished_scene.h"
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -7,6 +8,7 @@
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
 #include "scene/feasibility/constrained_scene.h"
+#include "scene/metrics/penetration.h"
 #include "workflows/scenes/scene_export.h"
 
 namespace simwright::workflows {
@@ -21,7 +23,6 @@ void DropUnstable(const scene::AssetSet& asset_set, FinishedScene* finished) {
   std::iota(checked.indices.begin(), checked.indices.end(), 0);
   CheckFree(std::vector<char>(checked.objects.size(), 0), asset_set, {}, &checked);
   finished->dropped += checked.dropped;
-  finished->penetration = checked.penetration;
   finished->objects = std::move(checked.objects);
 }
 
@@ -74,7 +75,7 @@ FinishedScene FinishScene(const std::vector<scene::SceneObject>& objects,
   FinishedScene finished;
   finished.objects = objects;
   for (int round = 0; round < kMostRounds; ++round) {
-    DropUnstable(asset_set, &finished);
+    if (round > 0) DropUnstable(asset_set, &finished);
     finished.stability = CheckInBothEngines(finished.objects, vocabulary, assets);
     const std::vector<size_t> moving = MovingObjects(finished.objects, finished.stability);
     if (moving.empty()) break;
@@ -82,6 +83,10 @@ FinishedScene FinishScene(const std::vector<scene::SceneObject>& objects,
       finished.objects.erase(finished.objects.begin() + static_cast<std::ptrdiff_t>(moving[i]));
     }
     finished.dropped += static_cast<int>(moving.size());
+  }
+  for (const scene::PenetratingPair& pair :
+       scene::PenetratingPairs(finished.objects, asset_set, 0.0)) {
+    finished.penetration = std::max(finished.penetration, pair.depth);
   }
   return finished;
 }

@@ -34,9 +34,9 @@ SceneStability CheckInBothEngines(const std::vector<scene::SceneObject>& objects
 std::vector<size_t> MovingObjects(const std::vector<scene::SceneObject>& objects,
                                   const SceneStability& stability);
 
-// Checks a scene for two seconds in Bullet, with all objects free, and as `scene export --check`
-// does in Bullet and MuJoCo; drops the objects that move until all others stand still. `assets`: a
-// folder with an asset folder per category. Throws core::Error as ExportScenes does.
+// Checks a scene in both engines; drops the objects that move, and what then moves in Bullet, until
+// all others stand still. `assets`: a folder with an asset folder per category. Throws core::Error
+// as ExportScenes does.
 FinishedScene FinishScene(const std::vector<scene::SceneObject>& objects,
                           const scene::Vocabulary& vocabulary, const scene::AssetSet& asset_set,
                           const std::filesystem::path& assets);

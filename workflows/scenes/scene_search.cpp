@@ -164,8 +164,13 @@ class SceneSearchRun {
       core::Progress silent;
       return model_.Inpaint(tokens, mask, sampling, &silent);
     };
-    return {vocabulary(), asset_set_, *goal_.mask,    *goal_.reward,
-            inpaint,      options,    request_.repair};
+    steering::SceneSearch search(vocabulary(), asset_set_, *goal_.mask, *goal_.reward, inpaint,
+                                 options, request_.repair);
+    search.SetFinalCheck([this](const std::vector<scene::SceneObject>& objects) {
+      return MovingObjects(objects,
+                           CheckInBothEngines(objects, vocabulary(), request_.output / "assets"));
+    });
+    return search;
   }
 
   // Runs a search and saves its state on the way; returns false if it was interrupted.
