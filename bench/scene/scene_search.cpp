@@ -15,6 +15,7 @@
 #include "core/random.h"
 #include "scene/asset_set/asset_set_folder.h"
 #include "scene/dataset/scene_shard.h"
+#include "scene/dataset/tokens.h"
 #include "scene/model/scene_model.h"
 #include "steering/rewards/scene_rewards.h"
 #include "steering/search/scene_search.h"
@@ -68,7 +69,7 @@ class SearchBench {
       reached += found.reached;
       curves_.push_back(found.records);
       if (arguments_.random) random_curves_.push_back(random.records);
-      part.tokens.insert(part.tokens.end(), found.best.tokens.begin(), found.best.tokens.end());
+      Append(found.best, &part);
       part.attempts.push_back({0, 0, 0, true, true, 0.0, 0.0, 0.0});
       if (!arguments_.scenes.empty()) {
         fs::create_directories(arguments_.scenes);
@@ -91,6 +92,13 @@ class SearchBench {
     options.one_by_one = true;
     core::Progress progress;
     return model_.Inpaint(tokens, mask, options, &progress);
+  }
+
+  // Appends a scene as the check in both engines saw it: stacks are sensitive to rounding.
+  void Append(const steering::TokenScene& scene, scene::SceneShard* part) const {
+    std::vector<float> tokens = scene.tokens;
+    EncodeScene(scene.Judged(vocabulary()).objects, vocabulary(), tokens.data());
+    part->tokens.insert(part->tokens.end(), tokens.begin(), tokens.end());
   }
 
   Outcome Search(std::uint64_t seed, bool random, int iterations) const {
