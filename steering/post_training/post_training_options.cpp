@@ -3,7 +3,7 @@
 namespace simwright::steering {
 
 PostTrainingOptions::PostTrainingOptions() {
-  trainer.learning_rate = 3e-5;
+  trainer.learning_rate = 3e-4;
   trainer.warm_share = 0.02;
   trainer.weight_decay = 0.0;
   trainer.ema_decay = 0.9;
