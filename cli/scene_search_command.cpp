@@ -28,10 +28,13 @@ int SearchForScene(workflows::SceneSearchRequest request, const CommonOptions& c
 void AddSearchGoal(CLI::App* command, workflows::SceneSearchRequest* request) {
   CLI::Option* const objective =
       command
-          ->add_option("--objective", request->objective.objective,
-                       "feasible, objects, or an expression of counts: \"feasible(cup) - "
-                       "count(plate)\"")
+          ->add_option(
+              "--objective", request->objective.objective,
+              "feasible, objects, solvable, hard-but-solvable, or an expression of counts: "
+              "\"feasible(cup) - count(plate)\"")
           ->capture_default_str();
+  command->add_option("--task", request->objective.task,
+                      "A robot's task that is to be solvable: \"bring the apple to the front\"");
   command
       ->add_option("--prompt", request->objective.prompt,
                    "The wanted scene in words, instead of an objective")
@@ -101,6 +104,8 @@ void AddSceneSearch(CLI::App* scene, CommonOptions* common, Run* run) {
       "Examples:\n  simwright scene search --type dimsum -o out/full\n"
       "  simwright scene search --type dimsum --objective \"feasible(steamer)\" -o out/steamers\n"
       "  simwright scene search --type pantry_shelf --prompt \"two apples and a can\" -o out/two\n"
+      "  simwright scene search --type pantry_shelf --objective hard-but-solvable \\\n"
+      "    --task \"bring the apple to the front\" -o out/hard\n"
       "  simwright scene search --type dimsum --start out/dimsum --start-scene 3 -o out/fuller\n"
       "  simwright scene search --type dimsum --exploration 1.4 --unscaled --fill 0 --rollout one "
       "\\"

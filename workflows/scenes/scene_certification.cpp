@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "certificate/robot_base.h"
 #include "certificate/scene_bodies.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -15,9 +14,9 @@
 #include "scene/asset_set/asset_set_folder.h"
 #include "scene/dataset/vocabulary.h"
 #include "scene/prompt/object_names.h"
-#include "scene/prompt/relation.h"
 #include "scene/scene_types/scene_types.h"
 #include "workflows/scenes/certificate_picture.h"
+#include "workflows/scenes/certify_targets.h"
 #include "workflows/scenes/certify_task.h"
 #include "workflows/scenes/scene_source.h"
 
@@ -92,22 +91,7 @@ class CertificationScenes {
 
   // Returns the free objects of scene `i` that a reference may mean.
   std::vector<int> Meant(size_t i, const scene::ObjectReference& reference) const {
-    std::vector<int> indices;
-    std::vector<scene::PlacedBox> boxes;
-    const scene::CategorySizes sizes = assets_.Sizes();
-    for (size_t k = 0; k < objects_[i].size(); ++k) {
-      const scene::SceneObject& object = objects_[i][k];
-      if (object.welded || scene::NameOfCategory(object.category) != reference.name) continue;
-      indices.push_back(static_cast<int>(k));
-      boxes.push_back(scene::BoxOf(sizes.at(object.category), object.world_from_object));
-    }
-    if (reference.ordinal == 0) return indices;
-    std::vector<const scene::PlacedBox*> pointers;
-    for (const scene::PlacedBox& box : boxes) pointers.push_back(&box);
-    const std::vector<int> order = scene::OrdinalOrder(pointers);
-    const auto wanted = static_cast<size_t>(reference.ordinal) - 1;
-    if (wanted >= order.size()) return {};
-    return {indices[static_cast<size_t>(order[wanted])]};
+    return MeantObjects(objects_[i], assets_.Sizes(), reference);
   }
 
  private:
@@ -125,37 +109,6 @@ class CertificationScenes {
   std::unique_ptr<certificate::SceneBodies> bodies_;
 };
 
-// The places of the robot, one for each piece of furniture at a pose.
-class RobotBases {
- public:
-  RobotBases(const certificate::Planner& planner, const std::optional<Eigen::Vector4d>& given) {
-    planner_ = &planner;
-    if (!given) return;
-    given_.emplace(Eigen::Translation3d(given->head<3>()) *
-                   Eigen::AngleAxisd((*given)[3], Eigen::Vector3d::UnitZ()));
-  }
-
-  // Returns the base for working at `support` (-1: none). Not thread-safe.
-  Eigen::Isometry3d For(const certificate::PlacedScene& scene, int support) {
-    if (given_) return *given_;
-    if (support < 0) return Eigen::Isometry3d::Identity();
-    const certificate::PlacedBody& body = scene.bodies[static_cast<size_t>(support)];
-    for (const auto& [model, pose, base] : known_) {
-      if (model == body.model && pose.isApprox(body.world_from_body, 1e-9)) return base;
-    }
-    const certificate::RobotBase chosen = certificate::ChooseRobotBase(*planner_, scene, support);
-    known_.emplace_back(body.model, body.world_from_body, chosen.world_from_robot);
-    return chosen.world_from_robot;
-  }
-
- private:
-  const certificate::Planner* planner_;
-  std::optional<Eigen::Isometry3d> given_;
-  std::vector<std::tuple<std::shared_ptr<const certificate::BodyModel>, Eigen::Isometry3d,
-                         Eigen::Isometry3d>>
-      known_;
-};
-
 void ValidateCertification(const SceneCertificationRequest& request) {
   if (request.candidates < 1 || request.candidates > 10000) {
     throw core::Error("the number of candidates must be 1 to 10000", "--candidates");
@@ -163,32 +116,6 @@ void ValidateCertification(const SceneCertificationRequest& request) {
   if (request.base && !request.base->allFinite()) {
     throw core::Error("a number of the base is not finite", "--base");
   }
-}
-
-// Returns the goals of a task for each object that it may mean.
-std::vector<certificate::TargetTask> TargetsOf(const CertificationScenes& scenes, size_t index,
-                                               const CertifyTask& task,
-                                               const certificate::PlacedScene& scene,
-                                               RobotBases* bases) {
-  std::vector<certificate::TargetTask> targets;
-  for (const int object : scenes.Meant(index, task.object)) {
-    certificate::TargetTask target;
-    target.target = object;
-    target.world_from_robot = bases->For(scene, certificate::SupportOf(scene, object));
-    if (task.kind == CertifyKind::kLift) {
-      target.goal = certificate::LiftGoal();
-    } else if (task.kind == CertifyKind::kFront) {
-      target.goal = certificate::FrontGoal(scene, object);
-    } else {
-      for (const int other : scenes.Meant(index, task.other)) {
-        if (other == object) continue;
-        target.goal = certificate::BesideGoal(scene, object, other);
-        if (target.goal) break;
-      }
-    }
-    targets.push_back(std::move(target));
-  }
-  return targets;
 }
 
 // Requires that some scene has the objects of the task.
@@ -269,7 +196,8 @@ class Certification {
     progress_->Stage("placing the robot", static_cast<int>(scenes_.size()));
     for (size_t i = 0; i < scenes_.size(); ++i) {
       placed_.push_back(scenes_.Placed(i));
-      auto targets = TargetsOf(scenes_, i, task_, placed_[i], &bases);
+      auto targets =
+          CertifyTargets(task_, scenes_.Objects(i), scenes_.assets().Sizes(), placed_[i], &bases);
       if (request_.every) {
         for (certificate::TargetTask& target : targets) jobs_.push_back({i, {std::move(target)}});
       } else {

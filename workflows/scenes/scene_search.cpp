@@ -51,6 +51,7 @@ std::string SearchSettings(const SceneSearchRequest& request, const fs::path& we
   core::OrderedJson json;
   json["weights"] = core::ContentHash(core::ReadFile(weights));
   json["objective"] = request.objective.objective;
+  json["task"] = request.objective.task;
   json["prompt"] = request.objective.prompt;
   json["mask"] = request.objective.mask;
   json["branching"] = search.branching;

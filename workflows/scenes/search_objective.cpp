@@ -5,10 +5,14 @@
 #include "core/error.h"
 #include "scene/prompt/object_names.h"
 #include "steering/rewards/scene_rewards.h"
+#include "workflows/scenes/certify_task.h"
 #include "workflows/scenes/scene_prompts.h"
+#include "workflows/scenes/solvable_reward.h"
 
 namespace simwright::workflows {
 namespace {
+
+constexpr std::uint64_t kTaskSeed = 1;  // of the plans
 
 // Returns the classes that a prompt names; empty if it allows others or names none.
 std::vector<char> NamedClasses(const scene::Prompt& prompt, const scene::Vocabulary& vocabulary) {
@@ -29,6 +33,28 @@ int ObjectsAskedFor(const scene::Prompt& prompt) {
   return count;
 }
 
+// Returns the reward of an objective without a prompt.
+std::unique_ptr<steering::SceneReward> RewardOf(const SearchObjective& objective,
+                                                const scene::Vocabulary& vocabulary,
+                                                const scene::AssetSet& asset_set,
+                                                core::Findings* findings) {
+  const bool hard = objective.objective == "hard-but-solvable";
+  if (!hard && objective.objective != "solvable") {
+    if (!objective.task.empty()) {
+      throw core::Error("a task needs the objective solvable or hard-but-solvable", "--task");
+    }
+    return steering::RewardNamed(objective.objective, vocabulary);
+  }
+  if (objective.task.empty()) {
+    throw core::Error("this objective needs a task", "--objective " + objective.objective,
+                      "give --task, as in \"bring the apple to the front\"");
+  }
+  const CertifyTask task =
+      ReadCertifyTask(objective.task, scene::NamesOfVocabulary(vocabulary), findings);
+  return SolvableReward(task, hard ? Solvability::kHardButSolvable : Solvability::kSolvable,
+                        asset_set, kTaskSeed);
+}
+
 }  // namespace
 
 SearchGoal MakeSearchGoal(const SearchObjective& objective, const scene::Vocabulary& vocabulary,
@@ -36,7 +62,7 @@ SearchGoal MakeSearchGoal(const SearchObjective& objective, const scene::Vocabul
   SearchGoal goal;
   goal.mask = steering::MaskNamed(objective.mask, vocabulary);
   if (objective.prompt.empty()) {
-    goal.reward = steering::RewardNamed(objective.objective, vocabulary);
+    goal.reward = RewardOf(objective, vocabulary, asset_set, findings);
     return goal;
   }
   if (objective.objective != "feasible") {

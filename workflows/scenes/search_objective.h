@@ -14,9 +14,10 @@ namespace simwright::workflows {
 
 // The objective of a search, as a command names it.
 struct SearchObjective {
-  // "feasible", "objects" or an expression of counts (steering::RewardNamed). Further rewards get
-  // their names in MakeSearchGoal.
+  // "feasible", "objects" or an expression of counts (steering::RewardNamed); "solvable" or
+  // "hard-but-solvable", for `task` (SolvableReward).
   std::string objective = "feasible";
+  std::string task;    // a robot's, as ReadCertifyTask takes it
   std::string prompt;  // free text, instead of `objective`; empty: none
   std::string mask = "empty,penetrating,unstable";
 };
@@ -31,8 +32,9 @@ struct SearchGoal {
 };
 
 // Makes the reward and the mask. With a prompt, objects that it does not ask for are masked, too,
-// and new objects have its names. Adds the findings of its words. Throws core::Error for an unknown
-// objective or mask, or a prompt that cannot be read.
+// and new objects have its names. Adds the findings of its words. `asset_set` must outlive the
+// goal. Throws core::Error for an unknown objective or mask, a prompt or task that cannot be read,
+// and a task without an objective that needs one, or the reverse.
 SearchGoal MakeSearchGoal(const SearchObjective& objective, const scene::Vocabulary& vocabulary,
                           const scene::AssetSet& asset_set, core::Findings* findings);
 
