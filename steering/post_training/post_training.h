@@ -23,7 +23,7 @@ struct CheckpointScore {
   double accuracy = 0.5;  // of a classifier that separates its scenes from data; 0.5: it cannot
 };
 
-// What post-training raises, and what it must not lose.
+// The reward that post-training raises, and the measure of how far scenes have left the data.
 struct PostTrainingGoal {
   // Returns the reward of each scene. Scene i has prompt i % prompts.size().
   std::function<std::vector<double>(const SampledScenes&)> rewards;

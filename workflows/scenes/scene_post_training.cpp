@@ -34,6 +34,26 @@ using steering::SampledScenes;
 constexpr int kReferenceScenes = 512;  // of the data that samples are compared with
 constexpr int kQuickRuns = 3;          // of the classifier for a checkpoint; 10 for the report
 
+// Returns true if a folder has the files of a post-training, finished or stopped.
+bool HasPostTraining(const fs::path& folder) {
+  return fs::exists(folder / scene::kWeightsFile) || fs::exists(folder / steering::kRoundsFile) ||
+         fs::exists(folder / scene::kStateFile);
+}
+
+// Removes the files of an earlier post-training, so that none is taken for one of the new one.
+void RemovePostTraining(const fs::path& folder) {
+  for (const char* const file : {scene::kWeightsFile, scene::kStateFile, steering::kRoundsFile,
+                                 steering::kCheckpointsFile}) {
+    fs::remove(folder / file);
+  }
+  std::vector<fs::path> checkpoints;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("checkpoint_") && name.ends_with(".pt")) checkpoints.push_back(entry);
+  }
+  for (const fs::path& one : checkpoints) fs::remove(one);
+}
+
 void ValidatePostTraining(const ScenePostTrainingRequest& request) {
   if (!(request.largest_accuracy >= 0.5 && request.largest_accuracy <= 1.0)) {
     throw core::Error("the largest accuracy must be 0.5 to 1", "--largest-accuracy");
@@ -44,9 +64,8 @@ void ValidatePostTraining(const ScenePostTrainingRequest& request) {
     throw core::Error("give either weights or a scene type to post-train", "",
                       "name a weights file, or a --type with shipped weights");
   }
-  const bool exists = fs::exists(request.output / scene::kWeightsFile);
-  if (exists && !request.options.trainer.resume && !request.force) {
-    throw core::Error("a model already exists", request.output.string(),
+  if (HasPostTraining(request.output) && !request.options.trainer.resume && !request.force) {
+    throw core::Error("a post-training already exists", request.output.string(),
                       "continue with --resume, choose another folder, or replace it with --force");
   }
 }
@@ -281,6 +300,10 @@ ScenePostTrainingReport PostTrainScenes(const ScenePostTrainingRequest& request,
       request.weights.empty() ? ShippedSceneWeights(request.type) : request.weights;
   const scene::SceneModelMetadata model = scene::ReadSceneModelMetadata(weights);
   const scene::SceneDataset data(request.data);
+  if (data.vocabulary().categories != model.vocabulary.categories) {
+    throw core::Error("the data has other categories than the model", request.data.string(),
+                      "give the dataset that the model was trained on");
+  }
   ScenePostTrainingReport report;
   report.output = request.output;
   report.continuous = model.options.continuous;
@@ -294,6 +317,7 @@ ScenePostTrainingReport PostTrainScenes(const ScenePostTrainingRequest& request,
   std::optional<core::FolderLock> lock;
   fs::create_directories(request.output);
   lock.emplace(request.output, "a post-training");
+  if (!request.options.trainer.resume) RemovePostTraining(request.output);
   const int scenes = model.training_scenes > 0 ? std::min(model.training_scenes, data.SceneCount())
                                                : data.SceneCount();
   CountObjects(data, scenes, &report);
