@@ -127,14 +127,21 @@ TEST(Inpainting, AFullMaskSamplesAndAnEmptyOneReturnsTheInput) {
       std::fill(none.pose.begin(), none.pose.end(), 0);
       std::fill(none.classes.begin(), none.classes.end(), 0);
       EXPECT_EQ(model.Inpaint(tokens, none, options, &progress), tokens);
-      // The kept values matter: another pose of the table gives other poses of the rest.
+      // The kept values matter: another pose of the table gives other poses of the rest. Poses at
+      // the ends of the range, where a network of random weights has many, may stay the same.
       std::vector<float> other = tokens;
-      other[0] += 0.3f;
+      const auto width = static_cast<std::ptrdiff_t>(InpaintingWords().TokenWidth());
+      const std::ptrdiff_t scene = InpaintingWords().entries * width;
+      for (auto table = other.begin(); table != other.end(); table += scene) *table += 0.3f;
       const InpaintingMask mask = MixedMask(5);
-      const auto after = static_cast<std::ptrdiff_t>(InpaintingWords().TokenWidth());
       const std::vector<float> a = model.Inpaint(tokens, mask, options, &progress),
                                b = model.Inpaint(other, mask, options, &progress);
-      EXPECT_FALSE(std::equal(a.begin() + after, a.begin() + 3 * after, b.begin() + after));
+      int changed = 0;
+      for (int i = 0; i < 5; ++i) {
+        const std::ptrdiff_t cup = i * scene + width;
+        changed += !std::equal(a.begin() + cup, a.begin() + cup + 2 * width, b.begin() + cup);
+      }
+      EXPECT_GE(changed, 4);
     }
   }
 }

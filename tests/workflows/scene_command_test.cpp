@@ -126,8 +126,8 @@ void SceneCommand::LearnsAndSamples() {
   ASSERT_EQ(RunProgram(sample + At("again")).code, 0);
   EXPECT_EQ(core::ReadFile(fs::path(At("again")) / scene::ShardName(0)),
             core::ReadFile(fs::path(At("sampled")) / scene::ShardName(0)));
-  // Either a model's or a type's weights must be given, not both.
-  for (const std::string& from : {std::string(), At("model") + "/model.pt --type dimsum",
+  // Weights or a type must be given, and weights of one type have no other.
+  for (const std::string& from : {std::string(), At("model") + "/model.pt --type pantry_shelf",
                                   std::string("--type no_such_type")}) {
     const Outcome refused = RunProgram("scene sample " + from + " --quiet -o " + At("refused"));
     EXPECT_EQ(refused.code, 1) << from;

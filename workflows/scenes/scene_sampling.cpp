@@ -135,10 +135,7 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
   if (wanted.count < 1) throw core::Error("at least 1 scene must be sampled", "--count");
   const fs::path weights = SamplingWeights(wanted);
   const scene::SceneModelMetadata metadata = scene::ReadSceneModelMetadata(weights);
-  if (!wanted.weights.empty() && !wanted.type.empty() && metadata.types.empty()) {
-    throw core::Error("the model has one scene type only", weights.string(),
-                      "leave --type out, or give it without a model for the shipped weights");
-  }
+  CheckSceneType(metadata, wanted.type, weights);
   core::Findings findings;
   SceneSamplingRequest request = wanted;
   const RequestedPrompts requested = ReadPromptsAndTypes(

@@ -18,6 +18,7 @@
 #include "workflows/scenes/before_after.h"
 #include "workflows/scenes/scene_assets.h"
 #include "workflows/scenes/scene_sampling.h"
+#include "workflows/scenes/scene_type_choice.h"
 #include "workflows/scenes/scene_weights.h"
 
 namespace simwright::workflows {
@@ -106,13 +107,10 @@ class SceneSteering {
 
   scene::SceneModel LoadModel() {
     const StepTimer timer(&report_.model_seconds);
-    const bool several = !scene::ReadSceneModelMetadata(weights_).types.empty();
+    const scene::SceneModelMetadata metadata = scene::ReadSceneModelMetadata(weights_);
+    CheckSceneType(metadata, request_.type, weights_);
     std::string type = request_.type;
-    if (!several && !request_.weights.empty() && !type.empty()) {
-      throw core::Error("the model has one scene type only", "--model, --type",
-                        "leave --type out, or give it without a model for the shipped weights");
-    }
-    if (several && type.empty()) type = source_.type;
+    if (!metadata.types.empty() && type.empty()) type = source_.type;
     return scene::SceneModel::Load(weights_, request_.text_encoder, type);
   }
 

@@ -58,4 +58,12 @@ std::string ChooseSceneType(const scene::SceneModelMetadata& metadata, const std
   return named;
 }
 
+void CheckSceneType(const scene::SceneModelMetadata& metadata, const std::string& asked,
+                    const std::filesystem::path& weights) {
+  if (asked.empty() || !metadata.types.empty() || asked == metadata.vocabulary.type) return;
+  throw core::Error(
+      "the model has scenes of the type " + metadata.vocabulary.type + " only, not " + asked,
+      weights.string(), "leave --type out, or leave the model out for the shipped weights");
+}
+
 }  // namespace simwright::workflows

@@ -17,4 +17,9 @@ namespace simwright::workflows {
 std::string ChooseSceneType(const scene::SceneModelMetadata& metadata, const std::string& asked,
                             const RequestedPrompts& prompts, core::Findings* findings);
 
+// Throws core::Error if weights of a single scene type are given together with another type.
+// `asked` may be empty; `weights` is named in the message.
+void CheckSceneType(const scene::SceneModelMetadata& metadata, const std::string& asked,
+                    const std::filesystem::path& weights);
+
 }  // namespace simwright::workflows
