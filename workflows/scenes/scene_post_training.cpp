@@ -20,6 +20,7 @@
 #include "steering/rewards/scene_rewards.h"
 #include "workflows/scenes/before_after.h"
 #include "workflows/scenes/dataset_scenes.h"
+#include "workflows/scenes/post_training_settings.h"
 #include "workflows/scenes/scene_prompts.h"
 #include "workflows/scenes/scene_sampling.h"
 #include "workflows/scenes/scene_set_features.h"
@@ -43,7 +44,7 @@ bool HasPostTraining(const fs::path& folder) {
 // Removes the files of an earlier post-training, so that none is taken for one of the new one.
 void RemovePostTraining(const fs::path& folder) {
   for (const char* const file : {scene::kWeightsFile, scene::kStateFile, steering::kRoundsFile,
-                                 steering::kCheckpointsFile}) {
+                                 steering::kCheckpointsFile, kPostTrainingSettingsFile}) {
     fs::remove(folder / file);
   }
   std::vector<fs::path> checkpoints;
@@ -55,6 +56,8 @@ void RemovePostTraining(const fs::path& folder) {
 }
 
 void ValidatePostTraining(const ScenePostTrainingRequest& request) {
+  std::string error;
+  if (!request.options.IsValid(&error)) throw core::Error("post-training: " + error);
   if (!(request.largest_accuracy >= 0.5 && request.largest_accuracy <= 1.0)) {
     throw core::Error("the largest accuracy must be 0.5 to 1", "--largest-accuracy");
   }
@@ -317,7 +320,12 @@ ScenePostTrainingReport PostTrainScenes(const ScenePostTrainingRequest& request,
   std::optional<core::FolderLock> lock;
   fs::create_directories(request.output);
   lock.emplace(request.output, "a post-training");
-  if (!request.options.trainer.resume) RemovePostTraining(request.output);
+  if (request.options.trainer.resume) {
+    CheckPostTrainingSettings(request, weights);
+  } else {
+    RemovePostTraining(request.output);
+  }
+  WritePostTrainingSettings(request, weights);
   const int scenes = model.training_scenes > 0 ? std::min(model.training_scenes, data.SceneCount())
                                                : data.SceneCount();
   CountObjects(data, scenes, &report);
