@@ -112,6 +112,9 @@ void AddSceneEvaluate(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_flag("--prompts", request->prompted,
                     "Sample with the prompts of held-out scenes, and measure how well the samples "
                     "agree with them");
+  command->add_flag("--free-counts", request->free_counts,
+                    "Let the network alone decide how many objects of each name there are, instead "
+                    "of holding the samples to the counts of the prompt");
   command
       ->add_option("--guidance", request->sampling.guidance,
                    "Weight of classifier-free guidance; 0: none")

@@ -199,6 +199,9 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_option("--prompt", request->prompts,
                       "The wanted scene in words; several are taken in turn");
   command->add_option("--prompts", request->prompt_file, "A text file with a prompt per line");
+  command->add_flag("--free-counts", request->free_counts,
+                    "Let the network alone decide how many objects of each name there are, instead "
+                    "of holding the samples to the counts of the prompt");
   command
       ->add_option("--guidance", request->sampling.guidance,
                    "Weight of classifier-free guidance: how far to follow the prompt; 0: none")

@@ -67,9 +67,6 @@ FluxDenoiser::FluxDenoiser(const SceneModelOptions& options, int classes) {
   const ClassShapes shapes = RegisterShapes(options, classes, EntryWidth(width), width / 2);
   entry_ = register_module("entry", TokenInputHead(options, classes, shapes));
   time_ = register_module("time", TimeEmbedding(width));
-  if (options.HasClassCounts()) {
-    counts_ = register_module("counts", ClassCounts(width, classes, options.text));
-  }
   for (int i = 0; i < options.double_blocks; ++i) {
     double_blocks_->push_back(Stream(width, options.heads));
     if (options.text) text_blocks_->push_back(Stream(width, options.heads));
@@ -112,8 +109,7 @@ torch::Tensor FluxDenoiser::PredictWithText(const torch::Tensor& scene, const En
 }
 
 Denoised FluxDenoiser::Predict(const NoisyScenes& scenes) {
-  torch::Tensor vector = time_(scenes.time);
-  if (counts_) vector = vector + counts_(scenes.classes, scenes.text);
+  const torch::Tensor vector = time_(scenes.time);
   torch::Tensor x = entry_(scenes);
   if (scenes.text.IsDefined()) {
     x = PredictWithText(x, scenes.text, vector);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "nn/transformer.h"
-#include "scene/model/class_counts.h"
 #include "scene/model/token_heads.h"
 
 namespace simwright::scene {
@@ -62,7 +61,6 @@ class FluxDenoiser : public Denoiser {
 
   TokenInputHead entry_{nullptr};
   TimeEmbedding time_{nullptr};
-  ClassCounts counts_{nullptr};  // empty if the options do not ask for it
   torch::nn::ModuleList double_blocks_, text_blocks_, single_blocks_;
   nn::Modulation last_{nullptr};
   torch::nn::Linear narrow_{nullptr};

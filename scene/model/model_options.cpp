@@ -45,7 +45,6 @@ SceneModelOptions SceneModelOptions::AsMiDiffusion() const {
   options.double_blocks = 0;
   options.heads = 4;
   options.blends_clean_poses = false;
-  options.counts_classes = false;
   options.time_power = 1.0;
   options.class_weight = 1.0;
   return options;
@@ -57,7 +56,6 @@ SceneModelOptions SceneModelOptions::AsDiffuScene() const {
   options.continuous = true;
   options.heads = 4;
   options.blends_clean_poses = false;
-  options.counts_classes = false;
   options.time_power = 1.0;
   // It has 132 width^2 parameters, 4 more with each of its 9 layers of cross-attention. The own
   // text encoder has the width of the model, too, 12 width^2 a layer.

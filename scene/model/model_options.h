@@ -26,10 +26,6 @@ struct SceneModelOptions {
   // noise is below 0.25, with poses in [-1, 1]: at p = 1, as in the papers, 8 % of the times are
   // there, at p = 2 28 %. The classes' loss is reweighted to the evidence lower bound.
   double time_power = 2.0;
-  // True: the blocks of kFlux are also conditioned on the number of objects of each class that the
-  // noisy scene has and the prompt asks for (ClassCounts). Not for continuous classes, and not with
-  // `shape_points`. False as published.
-  bool counts_classes = true;
   int diffusion_steps = 1000;
   // The weight of the classes' loss in the total, for a mixed model; 1 in the papers. The
   // divergence of one step is the class information divided by the number of steps, about a
@@ -55,11 +51,6 @@ struct SceneModelOptions {
   // Return the paper's baselines with the size of `this` to within a tenth.
   SceneModelOptions AsMiDiffusion() const;
   SceneModelOptions AsDiffuScene() const;
-
-  // Returns true if the model has a ClassCounts.
-  bool HasClassCounts() const {
-    return counts_classes && kind == DenoiserKind::kFlux && !continuous && shape_points == 0;
-  }
 
   bool IsValid(std::string* error) const;
 };

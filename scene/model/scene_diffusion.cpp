@@ -179,8 +179,12 @@ StepDistribution SceneDiffusion::Distribution(const NoisyScenes& scenes, const D
   const torch::Tensor logits = options.forbidden.defined()
                                    ? guess.classes.masked_fill(options.forbidden, kNoLogit)
                                    : guess.classes;
+  distribution.clean_classes = torch::softmax(logits, -1);
+  if (options.limits != nullptr) {
+    distribution.clean_classes = options.limits->Tilt(distribution.clean_classes, scenes.classes);
+  }
   distribution.class_probabilities =
-      classes_.Posterior(scenes.classes, torch::softmax(logits, -1), scenes.time,
+      classes_.Posterior(scenes.classes, distribution.clean_classes, scenes.time,
                          torch::full_like(scenes.time, previous));
   return distribution;
 }
@@ -220,7 +224,12 @@ void SceneDiffusion::Step(Denoiser* denoiser, int t, int previous, const StepOpt
   scenes->time =
       torch::full({scenes->poses.size(0)}, t, scenes->classes.options().dtype(torch::kLong));
   const Denoised guess = PredictGuided(denoiser, *scenes, options.guidance);
-  Draw(Distribution(*scenes, guess, t, previous, options), generator, scenes);
+  const StepDistribution distribution = Distribution(*scenes, guess, t, previous, options);
+  const torch::Tensor before = scenes->classes;
+  Draw(distribution, generator, scenes);
+  if (options.limits == nullptr) return;
+  options.limits->Hold(before, distribution.clean_classes, previous < 0, generator,
+                       &scenes->classes);
 }
 
 CleanScenes SceneDiffusion::Clean(const NoisyScenes& scenes, const torch::Tensor& forbidden) const {

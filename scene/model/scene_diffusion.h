@@ -6,6 +6,7 @@
 #include "scene/model/category_diffusion.h"
 #include "scene/model/denoiser.h"
 #include "scene/model/guidance.h"
+#include "scene/model/limited_classes.h"
 
 namespace simwright::scene {
 
@@ -44,6 +45,7 @@ struct StepOptions {
   double eta = 1.0;  // share of the posterior's noise that poses receive
   Guidance guidance;
   torch::Tensor forbidden;  // (B x N x K, bool): classes that no clean scene has; undefined: none
+  const LimitedClasses* limits = nullptr;  // of a mixed model; null: none
 };
 
 // The distribution p(x_previous | x_t) of a denoising step.
@@ -52,6 +54,7 @@ struct StepDistribution {
   torch::Tensor class_mean;           // (B x N x K), of a continuous model
   double deviation = 0.0;             // of poses and continuous classes; 0: they are certain
   torch::Tensor class_probabilities;  // (B x N x K + 1), of a mixed model
+  torch::Tensor clean_classes;        // (B x N x K), of a mixed model: those of the clean classes
 };
 
 // Mixed diffusion of scenes (Pfaff et al., after Hu et al. 2024): poses by DDPM (linear betas 1e-4

@@ -1,11 +1,13 @@
 #include "scene/model/scene_model.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/error.h"
 #include "core/random.h"
 #include "nn/compute.h"
 #include "scene/model/inpainting.h"
+#include "scene/model/limited_classes.h"
 #include "scene/model/prompt_encoder.h"
 #include "scene/model/scene_diffusion.h"
 #include "scene/model/token_tensors.h"
@@ -36,6 +38,17 @@ struct SceneModel::Network {
       prompts[i] = sampling.prompts[(static_cast<size_t>(first) + i) % sampling.prompts.size()];
     }
     return Encode(prompts);
+  }
+
+  // Returns the limits of scenes first .. first + count - 1; nothing if there are none.
+  std::optional<LimitedClasses> LimitsOf(const SampleOptions& sampling, int first,
+                                         int count) const {
+    if (sampling.limits.empty()) return std::nullopt;
+    std::vector<std::vector<ClassLimit>> limits;
+    for (int i = first; i < first + count; ++i) {
+      limits.push_back(sampling.limits[static_cast<size_t>(i) % sampling.limits.size()]);
+    }
+    return LimitedClasses(std::move(limits), metadata.vocabulary.ClassCount());
   }
 
   // Inpaints scenes first .. first + some - 1 as one batch.
@@ -69,6 +82,8 @@ std::vector<float> SceneModel::Network::InpaintBatch(const std::vector<float>& g
   scenes.classes = scenes.classes.to(device);
   if (metadata.options.text) scenes.text = EncodePrompts(options, first, some);
   step.forbidden = kept.forbidden();
+  const std::optional<LimitedClasses> limits = LimitsOf(options, first, some);
+  step.limits = limits ? &*limits : nullptr;
   for (size_t i = 0; i + 1 < times.size(); ++i) {
     core::CheckCancelled();
     kept.Clamp(diffusion, options.clamping, times[i], clamp_generator, &scenes);
@@ -235,6 +250,9 @@ std::vector<float> SceneModel::Inpaint(const std::vector<float>& given, const In
   if (!mask.IsValid(given, metadata.vocabulary, &error)) throw core::Error("inpainting: " + error);
   if (!options.prompts.empty() && !metadata.options.text) {
     throw core::Error("the model reads no prompts", "", "train one with --text");
+  }
+  if (!options.limits.empty() && metadata.options.continuous) {
+    throw core::Error("a model of continuous classes has no limits of their numbers");
   }
   nn::PrepareForWork();
   const torch::NoGradGuard no_gradient;

@@ -14,6 +14,7 @@
 #include "scene/grammar/scene_sample.h"
 #include "scene/model/inpainting_mask.h"
 #include "scene/model/model_options.h"
+#include "scene/prompt/class_limits.h"
 
 namespace simwright::scene {
 
@@ -31,6 +32,9 @@ struct SampleOptions {
   std::vector<std::string> prompts;
   // The weight w of classifier-free guidance, (1 + w) prompted - w unprompted; 0: none.
   double guidance = 0.0;
+  // Limits of the numbers of objects: scene i has limits[i % limits.size()]; none: no limits. Kept
+  // entries count, too. A continuous model has none.
+  std::vector<std::vector<ClassLimit>> limits;
   Clamping clamping = Clamping::kCleanValues;  // of Inpaint; docs/steering.md compares
 
   bool IsValid(std::string* error) const;

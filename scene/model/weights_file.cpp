@@ -21,7 +21,6 @@ SceneModelOptions OptionsOf(const core::JsonField& field) {
   options.diffusion_steps = field["diffusion_steps"].Int();
   options.class_weight = field["class_weight"].Number();
   options.blends_clean_poses = field.FlagOr("blends_clean_poses", false);
-  options.counts_classes = field.FlagOr("counts_classes", false);
   options.time_power = field.NumberOr("time_power", 1.0);
   options.shape_points = field.IntOr("shape_points", 0);
   options.text = field.FlagOr("text", false);
@@ -84,7 +83,6 @@ void WriteWeights(const Denoiser& denoiser, const SceneModelMetadata& metadata,
   json["diffusion_steps"] = metadata.options.diffusion_steps;
   json["class_weight"] = metadata.options.class_weight;
   json["blends_clean_poses"] = metadata.options.blends_clean_poses;
-  json["counts_classes"] = metadata.options.counts_classes;
   json["time_power"] = metadata.options.time_power;
   json["shape_points"] = metadata.options.shape_points;
   json["text"] = metadata.options.text;

@@ -111,6 +111,7 @@ scene::ShardOrigin OriginOf(const SceneSamplingRequest& request, const fs::path&
   if (!request.sampling.prompts.empty()) {
     settings["guidance"] = request.sampling.guidance;
     settings["prompts"] = request.sampling.prompts;
+    settings["counts_held"] = !request.sampling.limits.empty();
   }
   if (!request.raw) settings["lowering"] = kSampleLowering;
   return {request.sampling.seed, 0, "{}", core::JsonLine(settings), SIMWRIGHT_VERSION};
@@ -145,6 +146,11 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
       request, weights, ChooseSceneType(metadata, request.type, requested, &findings));
   const scene::Vocabulary& vocabulary = model.metadata().vocabulary;
   request.sampling.prompts = TextsOf(prompts);
+  if (!request.free_counts && !metadata.options.continuous) {
+    for (const scene::Prompt& prompt : prompts) {
+      request.sampling.limits.push_back(scene::ClassLimitsOf(prompt, vocabulary));
+    }
+  }
   core::StagedFolder staged(request.output, request.force);
   const scene::AssetSet asset_set =
       scene::ReadAssetSet(GatherSceneAssets({vocabulary.categories, request.added, request.assets,

@@ -27,9 +27,13 @@ struct SceneSamplingRequest {
   scene::CategoryFolders added;
   scene::SampleOptions sampling;
   // Free text (scene::ReadPrompt): scene i has prompt i % n of `prompts` and then the lines of
-  // `prompt_file`; none: unprompted. sampling.prompts is set from these.
+  // `prompt_file`; none: unprompted. sampling.prompts is set from these, and sampling.limits unless
+  // `free_counts`.
   std::vector<std::string> prompts;
   std::filesystem::path prompt_file;
+  // True: the network alone decides how many objects there are of each name; it is close on
+  // average. Always so for continuous classes.
+  bool free_counts = false;
   std::filesystem::path text_encoder;  // of a model that was trained with an external one
   bool raw = false;                    // keeps the model's samples unchanged
   bool force = false;                  // replaces an existing output

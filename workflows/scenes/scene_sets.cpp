@@ -113,6 +113,7 @@ void Sample(const SceneEvaluationRequest& request, const fs::path& weights, cons
   sampling.assets = assets;
   sampling.sampling = request.sampling;
   sampling.prompts = prompts;
+  sampling.free_counts = request.free_counts;
   sampling.text_encoder = request.text_encoder;
   sampling.raw = true;
   sampling.force = true;
