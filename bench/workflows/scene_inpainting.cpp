@@ -29,10 +29,13 @@ namespace {
 namespace fs = std::filesystem;
 using Objects = std::vector<scene::SceneObject>;
 
+constexpr double kLargestDepth = 0.001;  // m, of objects that touch after physics
+
 struct Arguments {
   fs::path data, models = "models";
   int steps = 50, repeats = 1;
   double share = 0.5;
+  bool default_clamping = false;  // only the default way of clamping
 };
 
 // A held-out scene with its kept objects first, then the others.
@@ -44,6 +47,7 @@ struct Halved {
 // The results of one task and one way of clamping.
 struct Figures {
   int asked = 0, dropped = 0, stable = 0, unstable_kept = 0;
+  int colliding = 0;                      // scenes with interpenetrations after physics
   double kept_displacement = 0.0;         // m
   std::vector<double> penetrations;       // m, of scenes before physics
   std::vector<Objects> sampled, settled;  // before and after physics
@@ -140,6 +144,8 @@ void RunPhysics(const std::vector<Halved>& scenes, const scene::AssetSet& asset_
     figures->asked += static_cast<int>(scenes[i].objects.size()) - scenes[i].kept;
     figures->dropped += placed[i].dropped;
     figures->stable += placed[i].stable;
+    figures->colliding +=
+        !scene::PenetratingPairs(placed[i].objects, asset_set, kLargestDepth).empty();
     figures->unstable_kept += static_cast<int>(placed[i].unstable.size());
     figures->kept_displacement = std::max(figures->kept_displacement, placed[i].kept_displacement);
     figures->settled.push_back(placed[i].objects);
@@ -216,12 +222,12 @@ void PrintRow(const char* task, const char* clamping, const Figures& figures,
   std::nth_element(depths.begin(), depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2),
                    depths.end());
   const double n = static_cast<double>(figures.sampled.size());
-  std::printf("%-10s %-7s %6d %8.1f %8.1f %8.3f %8.3f %8.1f %8.1f %8.3f %8d %8.1f %8.1f\n", task,
-              clamping, figures.asked, 100.0 * figures.dropped / std::max(1, figures.asked),
+  std::printf("%-10s %-7s %6d %8.1f %8.1f %8.3f %8.3f %8.1f %8d %8.1f %8.3f %8d %8.1f %8.1f\n",
+              task, clamping, figures.asked, 100.0 * figures.dropped / std::max(1, figures.asked),
               100.0 * depths[depths.size() / 2], comparison.Frechet(figures.sampled),
               comparison.Frechet(figures.settled), 1e4 * comparison.Divergence(figures.sampled),
-              100.0 * figures.stable / n, 1e3 * figures.kept_displacement, figures.unstable_kept,
-              figures.sampling, figures.physics);
+              figures.colliding, 100.0 * figures.stable / n, 1e3 * figures.kept_displacement,
+              figures.unstable_kept, figures.sampling, figures.physics);
   std::fflush(stdout);
 }
 
@@ -247,21 +253,22 @@ void Run(const Arguments& arguments) {
   const Comparison comparison(data, vocabulary, asset_set, arguments.models / "scene_features.pt");
   std::printf("%s, %d scenes %d times, %d steps\n", vocabulary.type.c_str(), count,
               arguments.repeats, arguments.steps);
-  std::printf("%-10s %-7s %6s %8s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n", "task", "clamped",
-              "asked", "drop %", "MTP cm", "Frechet", "settled", "KL 1e4", "stable %", "kept mm",
-              "unstable", "sample s", "physics s");
+  std::printf("%-10s %-7s %6s %8s %8s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n", "task", "clamped",
+              "asked", "drop %", "MTP cm", "Frechet", "settled", "KL 1e4", "collide", "stable %",
+              "kept mm", "unstable", "sample s", "physics s");
   for (const bool rearrange : {false, true}) {
     for (const bool noised : {false, true}) {
+      if (noised && arguments.default_clamping) continue;
       const scene::Clamping clamping =
           noised ? scene::Clamping::kForwardNoised : scene::Clamping::kCleanValues;
       PrintRow(rearrange ? "rearrange" : "complete", noised ? "noised" : "clean",
                Measure(model, halved, asset_set, rearrange, clamping, arguments.steps), comparison);
     }
   }
-  PrintRow(
-      "furniture", "noised",
-      Measure(model, emptied, asset_set, false, scene::Clamping::kForwardNoised, arguments.steps),
-      comparison);
+  const scene::Clamping clamping =
+      arguments.default_clamping ? scene::Clamping::kCleanValues : scene::Clamping::kForwardNoised;
+  PrintRow("furniture", arguments.default_clamping ? "clean" : "noised",
+           Measure(model, emptied, asset_set, false, clamping, arguments.steps), comparison);
 }
 
 }  // namespace
@@ -279,6 +286,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--repeats", arguments.repeats, "Times that each scene is completed")
       ->capture_default_str();
+  app.add_flag("--default-clamping", arguments.default_clamping,
+               "Measure the default way of clamping only");
   CLI11_PARSE(app, argc, argv);
   try {
     simwright::core::InstallCancelHandler();
