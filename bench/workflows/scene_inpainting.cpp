@@ -171,10 +171,7 @@ Figures Measure(const scene::SceneModel& model, const std::vector<Halved>& scene
   const auto start = std::chrono::steady_clock::now();
   tokens = model.Inpaint(tokens, mask, options, &progress);
   figures.sampling = SecondsSince(start);
-  const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
-  for (size_t i = 0; i < scenes.size(); ++i) {
-    figures.sampled.push_back(DecodeScene(&tokens[i * size], vocabulary));
-  }
+  figures.sampled = DecodeScenes(tokens, vocabulary);
   RunPhysics(scenes, asset_set, &figures);
   return figures;
 }
@@ -235,12 +232,7 @@ void Run(const Arguments& arguments) {
   const scene::SceneDataset dataset(arguments.data);
   const scene::Vocabulary& vocabulary = dataset.vocabulary();
   const int count = dataset.SceneCount();
-  const std::vector<float> tokens = dataset.Read(0, count);
-  const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
-  std::vector<Objects> data;
-  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    data.push_back(DecodeScene(&tokens[i * size], vocabulary));
-  }
+  const std::vector<Objects> data = DecodeScenes(dataset.Read(0, count), vocabulary);
   const scene::AssetSet asset_set = scene::ReadAssetSet(arguments.data / "assets");
   const scene::SceneModel model =
       scene::SceneModel::Load(arguments.models / "scenes" / (vocabulary.type + ".pt"));

@@ -88,6 +88,18 @@ std::vector<SceneObject> DecodeScene(const float* tokens, const Vocabulary& voca
   return objects;
 }
 
+std::vector<std::vector<SceneObject>> DecodeScenes(const std::vector<float>& tokens,
+                                                   const Vocabulary& vocabulary) {
+  const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
+  if (tokens.size() % size != 0) throw core::Error("tokens are not those of whole scenes");
+  std::vector<std::vector<SceneObject>> scenes;
+  scenes.reserve(tokens.size() / size);
+  for (size_t i = 0; i < tokens.size(); i += size) {
+    scenes.push_back(DecodeScene(&tokens[i], vocabulary));
+  }
+  return scenes;
+}
+
 std::string ValidateTokens(const float* tokens, const Vocabulary& vocabulary) {
   for (int i = 0; i < vocabulary.entries; ++i) {
     const std::string fault = FaultOfToken(tokens + i * vocabulary.TokenWidth(), vocabulary);

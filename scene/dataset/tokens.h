@@ -19,6 +19,9 @@ void EncodeScene(const std::vector<SceneObject>& objects, const Vocabulary& voca
 // projected to the nearest rotation (special Procrustes). Symbols and parents are unknown. Requires
 // finite poses.
 std::vector<SceneObject> DecodeScene(const float* tokens, const Vocabulary& vocabulary);
+// Returns the scenes of the tokens of several, (count x entries x TokenWidth).
+std::vector<std::vector<SceneObject>> DecodeScenes(const std::vector<float>& tokens,
+                                                   const Vocabulary& vocabulary);
 
 // Returns an empty text if the tokens are a valid scene: finite, one-hot classes, proper rotations
 // (to 1e-3), padding of zeros; otherwise a message with the entry and its error.

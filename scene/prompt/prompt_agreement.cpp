@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/shuffle.h"
@@ -71,14 +72,15 @@ void CompareStatements(const Prompt& prompt, const BoxesByName& by_name, const S
   for (const RelationStatement& one : prompt.relations) {
     const RelationStatement any{WithoutOrdinal(one.subject), one.relation,
                                 WithoutOrdinal(one.object)};
-    agreement->held += StatementHolds(one, by_name);
+    agreement->holds.push_back(StatementHolds(one, by_name));
     agreement->held_by_any += StatementHolds(any, by_name);
   }
   for (const TierStatement& one : prompt.tiers) {
     const TierStatement any{WithoutOrdinal(one.subject), one.tier};
-    agreement->held += StatementHolds(one, by_name, shelves);
+    agreement->holds.push_back(StatementHolds(one, by_name, shelves));
     agreement->held_by_any += StatementHolds(any, by_name, shelves);
   }
+  agreement->held = std::accumulate(agreement->holds.begin(), agreement->holds.end(), 0);
   agreement->statements = static_cast<int>(prompt.relations.size() + prompt.tiers.size());
   agreement->strict = agreement->strict && agreement->held == agreement->statements;
 }

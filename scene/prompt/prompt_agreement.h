@@ -26,6 +26,8 @@ struct PromptAgreement {
   double apf = 1.0;
   int statements = 0;  // relations and tiers asked for
   int held = 0;        // those that hold
+  // 1 for each statement that holds: the prompt's relations, then its tiers.
+  std::vector<char> holds = {};
   // Those that hold for any pair of objects of these names, whatever their ordinals.
   int held_by_any = 0;
   // True if every count is exact (with others: at least reached; without: no object of another

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/elapsed_time.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/random.h"
@@ -31,19 +32,6 @@ constexpr int kBadUpdatesInARow = 5;    // most consecutive losses that are not 
 constexpr int kBuffer = 16384;          // scenes of the data held in memory
 constexpr double kPromptDropout = 0.1;  // of the data's scenes
 constexpr std::uint64_t kScoringStream = 0x7363'6f72'65;
-
-// Adds the time until its destruction to a sum, s.
-class Stopwatch {
- public:
-  explicit Stopwatch(double* sum) : sum_(*sum) {}
-  ~Stopwatch() {
-    sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  double& sum_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 class PostTraining {
  public:
@@ -167,7 +155,7 @@ class PostTraining {
   }
 
   std::vector<double> RewardsOf(const SampledScenes& scenes) {
-    const Stopwatch watch(&report_.reward_seconds);
+    const core::ScopedTimer watch(&report_.reward_seconds);
     std::vector<double> rewards = goal_.rewards(scenes);
     if (rewards.size() != scenes.size()) throw core::Error("there must be a reward for each scene");
     return rewards;
@@ -179,14 +167,14 @@ class PostTraining {
     Rollout rollout;
     SampledScenes scenes;
     {
-      const Stopwatch watch(&report_.sampling_seconds);
+      const core::ScopedTimer watch(&report_.sampling_seconds);
       rollout = Sample(model_.denoiser.get(), options_.scenes, &rng);
       scenes = Decoded(rollout);
     }
     const std::vector<double> rewards = RewardsOf(scenes);
     RoundRecord record = RecordOf(round, scenes, rewards);
     const int groups = std::max(1, static_cast<int>(goal_.prompts.size()));
-    const Stopwatch watch(&report_.update_seconds);
+    const core::ScopedTimer watch(&report_.update_seconds);
     Update(rollout, Advantages(rewards, groups), &rng, &record);
     report_.rounds.push_back(record);
   }
@@ -318,7 +306,7 @@ class PostTraining {
 
   // Scores the averaged weights, and writes them with all records.
   void Score(int round) {
-    const Stopwatch watch(&report_.scoring_seconds);
+    const core::ScopedTimer watch(&report_.scoring_seconds);
     trainer_->CopyAverageTo(average_.get());
     if (round == 0) CopyParameters(*model_.denoiser, average_.get());
     average_->eval();

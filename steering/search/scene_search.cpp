@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/elapsed_time.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
@@ -13,20 +14,6 @@ namespace simwright::steering {
 namespace {
 
 constexpr std::uint64_t kRootStream = 0;  // iteration i has stream i + 1
-
-// Adds the time of its life to a sum of seconds.
-class SearchTimer {
- public:
-  explicit SearchTimer(double* seconds) : seconds_(seconds), start_(Clock::now()) {}
-  ~SearchTimer() { *seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-  SearchTimer(const SearchTimer&) = delete;
-  SearchTimer& operator=(const SearchTimer&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double* seconds_;
-  Clock::time_point start_;
-};
 
 }  // namespace
 
@@ -148,10 +135,10 @@ void SceneSearch::Synthesize(std::uint64_t seed, std::vector<Draft>* drafts) {
     mask.forbidden.resize(mask.pose.size() * static_cast<size_t>(vocabulary_.ClassCount()), 0);
   }
   {
-    const SearchTimer timer(&model_seconds_);
+    const core::ScopedTimer timer(&model_seconds_);
     tokens = inpainter_(tokens, mask, seed);
   }
-  const SearchTimer timer(&physics_seconds_);
+  const core::ScopedTimer timer(&physics_seconds_);
   const auto size = static_cast<size_t>(vocabulary_.entries * vocabulary_.TokenWidth());
   core::ParallelFor(static_cast<int>(drafts->size()), [&](int i) {
     core::CheckCancelled();
@@ -244,7 +231,7 @@ void SceneSearch::Consider(int node) {
   const double claimed = tree_.nodes()[static_cast<size_t>(node)].reward;
   if (state_.best >= 0 && claimed <= state_.best_reward) return;
   if (options_.confirms) {
-    const SearchTimer timer(&physics_seconds_);
+    const core::ScopedTimer timer(&physics_seconds_);
     TokenScene& scene = state_.scenes[static_cast<size_t>(node)];
     if (!Confirm(&scene)) {
       tree_.SetReward(node, RewardOf(scene), IsTerminal(scene));

@@ -65,6 +65,7 @@ TEST(PromptAgreement, StatementsHoldForTheOrdinalsOfTheScene) {
                       {{"cup", 0}, Relation::kNextTo, {"bowl", 0}}};
   agreement = AgreementWith(prompt, AgreementScene(), DefaultCategorySizes());
   EXPECT_EQ(agreement.StatementShare(), 0.5);
+  EXPECT_EQ(agreement.holds, (std::vector<char>{1, 0}));
 }
 
 TEST(PromptAgreement, StrictMatchCountsEverything) {

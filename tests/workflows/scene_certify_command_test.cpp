@@ -25,6 +25,7 @@ class SceneCertifyCommand : public testing::Test {
   static void CertifiesAScene();
   static void CertifiesEveryObject();
   static void TakesPoses();
+  static void SearchesForSolvableScenes();
   static void RefusesWhatDoesNotFit();
   static void LeavesNothingWhenStopped();
 
@@ -118,6 +119,40 @@ void SceneCertifyCommand::TakesPoses() {
   EXPECT_EQ(scene["world_from_robot"]["translation"][2], 0.3);
 }
 
+// The objectives of `scene search` agree with the certificate of the scene that it starts from.
+void SceneCertifyCommand::SearchesForSolvableScenes() {
+  const auto search = [](const std::string& objective, const std::string& task,
+                         const std::string& output) {
+    return RunProgram("scene search --type pantry_shelf --steps 4 --iterations 1 --branching 1 " +
+                      ("--quiet --assets " + At("pantry/assets")) + " --start " + At("pantry") +
+                      " --objective " + objective + " --task \"" + task + "\" -o " + At(output));
+  };
+  const auto report_of = [](const std::string& output) {
+    return json::parse(core::ReadFile(fs::path(At(output)) / "search.json"));
+  };
+  const std::string task = "bring the pear to the front";
+  const Outcome solvable = search("solvable", task, "easy");
+  ASSERT_EQ(solvable.code, 0) << solvable.text;
+  EXPECT_EQ(report_of("easy")["start_reward"], 1.0);
+  EXPECT_EQ(report_of("easy")["final_reward"], 1.0);
+  EXPECT_EQ(report_of("easy")["iterations"].size(), 0u) << "the start is solvable already";
+  const Outcome hard = search("hard-but-solvable", task, "hard");
+  EXPECT_NE(hard.code, 2) << hard.text;
+  const double difficulty = Report("proof")["scenes"][0]["difficulty"];
+  EXPECT_NEAR(report_of("hard")["start_reward"].get<double>(), 0.5 + 0.5 * difficulty, 0.1);
+  EXPECT_GE(report_of("hard")["best_reward"], report_of("hard")["start_reward"]);
+  // A scene without the object that the task names.
+  core::WriteFile(At("pantry/no_pear.json"),
+                  R"([{"asset": "assets/shelf_pantry", "translation": [0, 0, 0]}])");
+  const Outcome none = RunProgram(
+      "scene search --type pantry_shelf --steps 4 --iterations 1 --branching 1 --quiet --assets " +
+      At("pantry/assets") + " --start " + At("pantry/no_pear.json") +
+      " --objective solvable --task \"" + task + "\" -o " + At("none"));
+  EXPECT_NE(none.code, 2) << none.text;
+  EXPECT_EQ(report_of("none")["start_reward"], 0.0);
+  EXPECT_EQ(search("solvable", "sing a song", "bad").code, 1);
+}
+
 void SceneCertifyCommand::RefusesWhatDoesNotFit() {
   const auto expect = [](const Outcome& outcome, const std::string& says) {
     EXPECT_EQ(outcome.code, 1) << outcome.text;
@@ -161,6 +196,7 @@ TEST_F(SceneCertifyCommand, ProvesOrNamesWhatIsInTheWay) {
   CertifiesAScene();
   CertifiesEveryObject();
   TakesPoses();
+  SearchesForSolvableScenes();
   RefusesWhatDoesNotFit();
   LeavesNothingWhenStopped();
 }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "certificate/scene_bodies.h"
+#include "core/elapsed_time.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
@@ -25,10 +26,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr size_t kPicturedScenes = 4;
-
-double SecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // Returns the categories that are furniture in any scene type.
 std::set<std::string> FurnitureCategories() {
@@ -178,7 +175,7 @@ class Certification {
       progress_->Advance();
     });
     if (request_.pictures) WritePictures(staged.staging());
-    report_.seconds = SecondsSince(start_);
+    report_.seconds = core::SecondsSince(start_);
     core::WriteFile(staged.staging() / "certificate.json", CertificationJson(report_, false));
     progress_->Finish();
     staged.Commit();
@@ -226,7 +223,7 @@ class Certification {
     one->certificate =
         certificate::Certify(planner, scene, certificate::EasiestFirst(planner, scene, job.targets),
                              options, folder / file / "trajectory.json");
-    one->seconds = SecondsSince(began);
+    one->seconds = core::SecondsSince(began);
     const int target = one->certificate.target;
     one->target = scene.bodies[static_cast<size_t>(target)].name;
     for (const certificate::TargetTask& given : job.targets) {

@@ -66,14 +66,10 @@ void RenderDataset(const fs::path& path, const SceneFeatureTrainingRequest& requ
   if (fs::is_directory(path / "assets")) folders.push_back(path / "assets");
   const scene::AssetSet asset_set =
       scene::ReadAssetSet(GatherSceneAssets({vocabulary.categories, {}, folders, kept}, progress));
-  const std::vector<float> tokens = dataset.Read(0, dataset.SceneCount());
-  const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
+  const auto scenes = DecodeScenes(dataset.Read(0, dataset.SceneCount()), vocabulary);
   Render(
       vocabulary, asset_set, dataset.SceneCount(), request.options.seed,
-      [&](int i, core::Rng&) {
-        return DecodeScene(&tokens[static_cast<size_t>(i) * size], vocabulary);
-      },
-      pictures, progress);
+      [&](int i, core::Rng&) { return scenes[static_cast<size_t>(i)]; }, pictures, progress);
 }
 
 void RenderDraws(const std::string& name, const SceneFeatureTrainingRequest& request,

@@ -116,23 +116,13 @@ class DataComparison {
     const bool use_held_out = model.training_scenes > 0 && held_out >= kReferenceScenes / 4;
     const int first = use_held_out ? model.training_scenes : 0;
     const int count = std::min(kReferenceScenes, use_held_out ? held_out : data.SceneCount());
-    const SampledScenes scenes = Decoded(data.Read(first, count), vocabulary_);
+    const SampledScenes scenes = DecodeScenes(data.Read(first, count), vocabulary_);
     progress->Stage("images of the data", count);
     reference_ = Features(scenes, progress);
     furniture_.emplace(scenes);
   }
 
   const FurnitureRule& furniture() const { return *furniture_; }
-
-  static SampledScenes Decoded(const std::vector<float>& tokens,
-                               const scene::Vocabulary& vocabulary) {
-    const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
-    SampledScenes scenes;
-    for (size_t i = 0; i < tokens.size(); i += size) {
-      scenes.push_back(scene::DecodeScene(&tokens[i], vocabulary));
-    }
-    return scenes;
-  }
 
   // Returns the accuracy of the classifier, 0.5 to 1.
   double Accuracy(const SampledScenes& scenes, int runs, std::uint64_t seed) const {
@@ -223,7 +213,7 @@ class Comparison {
     sampling.seed = request_.options.seed;
     sampling.prompts = objective_.prompts;
     progress->Stage("samples " + name, request_.compared_scenes);
-    const SampledScenes scenes = DataComparison::Decoded(
+    const SampledScenes scenes = scene::DecodeScenes(
         model.Sample(request_.compared_scenes, sampling, progress), model.metadata().vocabulary);
     PostTrainingSamples samples;
     samples.scenes = static_cast<int>(scenes.size());

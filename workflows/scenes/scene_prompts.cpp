@@ -48,11 +48,22 @@ bool IsBareScene(const std::string& text) {
   return letters == "scene" || letters == "ascene" || letters == "thescene";
 }
 
+// Returns the statements of a prompt as sentences, in the order of PromptAgreement::holds.
+std::vector<std::string> StatementsOf(const scene::Prompt& prompt) {
+  std::vector<std::string> statements;
+  for (const auto& one : prompt.relations) statements.push_back(StatementText(one, prompt));
+  for (const auto& one : prompt.tiers) statements.push_back(StatementText(one, prompt));
+  return statements;
+}
+
 PromptReport ReportOf(const scene::Prompt& prompt, size_t index, size_t prompts,
                       const std::vector<std::vector<scene::SceneObject>>& scenes,
                       const scene::CategorySizes& sizes) {
   PromptReport report;
   report.text = prompt.Text();
+  for (const std::string& statement : StatementsOf(prompt)) {
+    report.broken.push_back({statement, 0});
+  }
   double held = 0.0;
   for (size_t i = index; i < scenes.size(); i += prompts) {
     const scene::PromptAgreement agreement = AgreementWith(prompt, scenes[i], sizes);
@@ -61,7 +72,11 @@ PromptReport ReportOf(const scene::Prompt& prompt, size_t index, size_t prompts,
     report.strict += agreement.strict;
     report.statements = agreement.statements;
     held += agreement.StatementShare();
+    for (size_t k = 0; k < agreement.holds.size(); ++k) {
+      report.broken[k].scenes += agreement.holds[k] ? 0 : 1;
+    }
   }
+  std::erase_if(report.broken, [](const auto& one) { return one.scenes == 0; });
   if (report.scenes == 0) return report;
   report.apf /= report.scenes;
   report.strict /= report.scenes;
@@ -138,6 +153,10 @@ std::string PromptTable(const std::vector<PromptReport>& reports) {
       text += line;
     }
     text += "\n";
+    for (const PromptReport::Broken& one : report.broken) {
+      text += "  does not hold in " + std::to_string(one.scenes) + " of " +
+              std::to_string(report.scenes) + ": " + one.statement + "\n";
+    }
   }
   return text;
 }
@@ -145,12 +164,17 @@ std::string PromptTable(const std::vector<PromptReport>& reports) {
 core::OrderedJson PromptJson(const std::vector<PromptReport>& reports) {
   core::OrderedJson json = core::OrderedJson::array();
   for (const PromptReport& report : reports) {
+    core::OrderedJson broken = core::OrderedJson::array();
+    for (const PromptReport::Broken& one : report.broken) {
+      broken.push_back({{"statement", one.statement}, {"scenes", one.scenes}});
+    }
     json.push_back({{"prompt", report.text},
                     {"scenes", report.scenes},
                     {"apf", report.apf},
                     {"strict_share", report.strict},
                     {"relations", report.statements},
-                    {"relations_held_share", report.held}});
+                    {"relations_held_share", report.held},
+                    {"relations_broken", broken}});
   }
   return json;
 }

@@ -45,6 +45,12 @@ struct PromptReport {
   double strict = 0.0;  // share of scenes that agree exactly
   int statements = 0;   // relations and tiers that the prompt asks for
   double held = 0.0;    // share of them that hold
+  // The statements that do not hold in every scene, and in how many they do not.
+  struct Broken {
+    std::string statement;
+    int scenes = 0;
+  };
+  std::vector<Broken> broken;
 };
 
 // Returns one report per prompt; scene i has prompt i % n. Empty if there are no prompts.

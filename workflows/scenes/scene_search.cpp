@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/content_hash.h"
+#include "core/elapsed_time.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/folder_lock.h"
@@ -24,10 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char kStateFile[] = "search.state", kRandomStateFile[] = "random.state";
-
-double SearchSecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 void ValidateSearch(const SceneSearchRequest& request) {
   std::string error;
@@ -287,7 +284,7 @@ void SceneSearchRun::WriteResult(const steering::SceneSearch& search) {
     WriteBestPath(search, vocabulary(), asset_set_, folder / "best_path.png");
     WriteSceneSheet(scene::SceneDataset(folder), asset_set_, folder / "scenes.png");
   }
-  report_.seconds = SearchSecondsSince(start_);
+  report_.seconds = core::SecondsSince(start_);
   core::WriteFile(folder / "search.svg", SearchCurves(report_));
   core::WriteFile(folder / "search.json", SearchJson(report_));
 }

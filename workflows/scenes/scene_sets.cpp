@@ -20,14 +20,8 @@ namespace fs = std::filesystem;
 namespace {
 
 SceneSet Decoded(const scene::SceneDataset& dataset, int first, int count) {
-  SceneSet set;
-  if (count == 0) return set;
-  const std::vector<float> tokens = dataset.Read(first, count);
-  const size_t size = tokens.size() / static_cast<size_t>(count);
-  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    set.push_back(DecodeScene(&tokens[i * size], dataset.vocabulary()));
-  }
-  return set;
+  if (count == 0) return {};
+  return DecodeScenes(dataset.Read(first, count), dataset.vocabulary());
 }
 
 // Returns the weights to sample from or to get the training scenes from; empty if none are needed.

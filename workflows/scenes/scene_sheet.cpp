@@ -13,12 +13,8 @@ void WriteSceneSheet(const scene::SceneDataset& dataset, const scene::AssetSet& 
   constexpr int kScenes = 12, kSize = 420;  // pixels per side
   const int count = std::min(kScenes, dataset.SceneCount());
   if (count == 0) return;
-  const std::vector<float> tokens = dataset.Read(0, count);
-  const size_t size = tokens.size() / static_cast<size_t>(count);
   std::vector<core::Image> pictures;
-  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    const std::vector<scene::SceneObject> objects =
-        DecodeScene(&tokens[i * size], dataset.vocabulary());
+  for (const auto& objects : DecodeScenes(dataset.Read(0, count), dataset.vocabulary())) {
     if (!objects.empty()) pictures.push_back(RenderFromSide(objects, asset_set, kSize));
   }
   if (!pictures.empty()) core::WritePng(path, core::ContactSheet(pictures, 4));

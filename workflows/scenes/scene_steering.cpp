@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/content_hash.h"
+#include "core/elapsed_time.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
@@ -24,20 +25,6 @@
 namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
-
-// Adds the time of its life to a sum of seconds.
-class StepTimer {
- public:
-  explicit StepTimer(double* seconds) : seconds_(seconds), start_(Clock::now()) {}
-  ~StepTimer() { *seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-  StepTimer(const StepTimer&) = delete;
-  StepTimer& operator=(const StepTimer&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double* seconds_;
-  Clock::time_point start_;
-};
 
 void ValidateSteering(const SceneSteeringRequest& request) {
   if (request.attempts < 1 || request.attempts > 100) {
@@ -106,7 +93,7 @@ class SceneSteering {
   const scene::Vocabulary& vocabulary() const { return model_.metadata().vocabulary; }
 
   scene::SceneModel LoadModel() {
-    const StepTimer timer(&report_.model_seconds);
+    const core::ScopedTimer timer(&report_.model_seconds);
     const scene::SceneModelMetadata metadata = scene::ReadSceneModelMetadata(weights_);
     CheckSceneType(metadata, request_.type, weights_);
     std::string type = request_.type;
@@ -125,7 +112,7 @@ class SceneSteering {
 
   // Samples the proposals of a round, by unfinished scene.
   std::vector<std::vector<Proposal>> Propose(int round) {
-    const StepTimer timer(&report_.sampling_seconds);
+    const core::ScopedTimer timer(&report_.sampling_seconds);
     const std::vector<size_t> open = Unfinished();
     std::vector<float> tokens;
     scene::InpaintingMask mask;
@@ -154,7 +141,7 @@ class SceneSteering {
 
   // Reads the assets that are wanted and not yet there, and copies them into `folder`.
   void GatherAssets(const fs::path& folder) {
-    const StepTimer timer(&report_.asset_seconds);
+    const core::ScopedTimer timer(&report_.asset_seconds);
     SceneAssetsRequest missing;
     for (const std::string& category : wanted_) {
       if (asset_set_.Has(category)) continue;
@@ -184,7 +171,7 @@ class SceneSteering {
   // Places the proposals of the `open` scenes and accepts the best of each. Proposals after the
   // first that loses nothing are not needed; which one that is does not depend on the threads.
   void TakeBest(const std::vector<size_t>& open, const std::vector<std::vector<Proposal>>& all) {
-    const StepTimer timer(&report_.physics_seconds);
+    const core::ScopedTimer timer(&report_.physics_seconds);
     std::vector<Trial> trials(open.size());
     std::vector<std::pair<size_t, size_t>> jobs;  // ranks of scenes
     for (size_t i = 0; i < open.size(); ++i) {
@@ -359,7 +346,7 @@ void SceneSteering::Write(const fs::path& folder) {
   }
   scene::WriteShard(part, folder / scene::ShardName(0));
   {
-    const StepTimer timer(&report_.picture_seconds);
+    const core::ScopedTimer timer(&report_.picture_seconds);
     WriteBeforeAfter(pairs, asset_set_, folder);
   }
   report_.seconds =
