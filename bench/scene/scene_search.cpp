@@ -4,11 +4,11 @@
 //   simwright scene generate --type dimsum --count 12 --seed 77 -o out/dimsum
 //   bench_scene_search --weights models/scenes/dimsum.pt --assets out/dimsum/assets --random
 // OPENBLAS_CORETYPE and OMP_WAIT_POLICY are set as in docs/figures.md.
-#include <chrono>
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
 
+#include "core/elapsed_time.h"
 #include "core/files.h"
 #include "core/line_plot.h"
 #include "core/parallel.h"
@@ -67,6 +67,8 @@ class SearchBench {
       }
       Print(seed, found, random);
       reached += found.reached;
+      model_seconds_ += found.model;
+      samples_ += found.records.empty() ? 0.0 : found.records.back().samples;
       curves_.push_back(found.records);
       if (arguments_.random) random_curves_.push_back(random.records);
       Append(found.best, &part);
@@ -78,6 +80,7 @@ class SearchBench {
       if (!arguments_.curves.empty()) core::WriteFile(arguments_.curves, Curves());
     }
     std::printf("%d of %d searches reached %g\n", reached, arguments_.seeds, reward_->Goal());
+    PrintPlainSampler();
   }
 
  private:
@@ -92,6 +95,23 @@ class SearchBench {
     options.one_by_one = true;
     core::Progress progress;
     return model_.Inpaint(tokens, mask, options, &progress);
+  }
+
+  // Prints the rate of unconditional samples in batches. A sample of the search passes the same
+  // entries through the same network as often: the ratio of their FLOP/s is that of the samples/s.
+  void PrintPlainSampler() const {
+    constexpr int kSamples = 128;
+    scene::SampleOptions options;
+    options.steps = arguments_.steps;
+    options.eta = arguments_.eta;
+    core::Progress progress;
+    model_.Sample(options.batch, options, &progress);  // warms up
+    const core::SteadyTime start = core::Now();
+    model_.Sample(kSamples, options, &progress);
+    const double plain = kSamples / core::SecondsSince(start);
+    const double search = model_seconds_ > 0.0 ? samples_ / model_seconds_ : 0.0;
+    std::printf("plain sampler %.1f samples/s, in searches %.1f: ratio of FLOP/s %.2f\n", plain,
+                search, search / plain);
   }
 
   // Appends a scene as the check in both engines saw it: stacks are sensitive to rounding.
@@ -112,7 +132,7 @@ class SearchBench {
     steering::RepairOptions repair;
     repair.most_sideways = arguments_.sideways;
     if (arguments_.unrepaired) repair.repair = steering::Repair::kNone;
-    const auto start = std::chrono::steady_clock::now();
+    const core::SteadyTime start = core::Now();
     steering::SceneSearch search(
         vocabulary(), asset_set_, *mask_, *reward_,
         [&](const auto& tokens, const auto& mask, std::uint64_t s) {
@@ -140,8 +160,7 @@ class SearchBench {
                     search.physics_seconds(),
                     0.0,
                     search.scenes()[static_cast<size_t>(search.best())]};
-    outcome.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    outcome.seconds = core::SecondsSince(start);
     outcome.reached = search.ReachedGoal();
     steering::TokenScene again = outcome.best;
     outcome.confirmed = ConfirmScene(vocabulary(), asset_set_, repair, &again) &&
@@ -192,6 +211,7 @@ class SearchBench {
   std::unique_ptr<steering::MaskGenerator> mask_;
   std::unique_ptr<steering::SceneReward> reward_;
   std::vector<std::vector<steering::SearchRecord>> curves_, random_curves_;
+  double model_seconds_ = 0.0, samples_ = 0.0;  // of all searches
 };
 
 }  // namespace
