@@ -62,11 +62,15 @@ LimitedClasses::LimitedClasses(std::vector<std::vector<ClassLimit>> limits, int 
   for (std::vector<ClassLimit>& of_scene : limits) {
     std::string error;
     if (!AreValid(of_scene, classes, &error)) throw core::Error(error);
-    SceneLimits scene{std::move(of_scene), std::vector<int>(static_cast<size_t>(classes), -1)};
+    SceneLimits scene{std::move(of_scene), std::vector<int>(static_cast<size_t>(classes), -1), {}};
     for (size_t i = 0; i < scene.limits.size(); ++i) {
       for (const int index : scene.limits[i].classes) {
         scene.limit_of[static_cast<size_t>(index)] = static_cast<int>(i);
       }
+    }
+    size_t next = scene.limits.size();
+    for (const int limit : scene.limit_of) {
+      scene.weight_of.push_back(limit >= 0 ? static_cast<size_t>(limit) : next++);
     }
     scenes_.push_back(std::move(scene));
   }
@@ -89,45 +93,46 @@ torch::Tensor LimitedClasses::Tilt(const torch::Tensor& probabilities,
   return tilted.to(probabilities.device());
 }
 
-// Iterative proportional fitting: each limit has a weight, by which the probabilities of its
-// classes are multiplied before those of an entry are normalised. The weights are set in turn, so
-// that the expected number is within its limit.
+// Iterative proportional fitting: each limit, and each class without one, has a weight, by which
+// the probabilities of its classes are multiplied before those of an entry are normalised. The
+// weights are set in turn, so that the expected number is within its limit, or as predicted.
 void LimitedClasses::TiltScene(const SceneLimits& scene, const std::int64_t* noisy,
                                std::int64_t entries, float* probabilities) const {
   const Counter counter(scene, noisy, entries, classes_);
-  const size_t count = scene.limits.size();
+  const size_t limits = scene.limits.size(), empty = scene.weight_of.back(), columns = empty + 1;
   std::vector<float*> rows;
   for (std::int64_t i = 0; i < entries; ++i) {
     if (noisy[i] == classes_) rows.push_back(probabilities + i * classes_);
   }
-  // The probability of each limit's classes, and of those without a limit, by entry.
-  std::vector<double> parts(rows.size() * (count + 1), 0.0);
+  // The probabilities of each weight's classes by entry, and their sums over entries.
+  std::vector<double> parts(rows.size() * columns, 0.0), predicted(columns, 0.0);
+  std::vector<double> weights(columns, 1.0), sums(rows.size(), 0.0);
   for (size_t r = 0; r < rows.size(); ++r) {
     for (int k = 0; k < classes_; ++k) {
-      const int limit = scene.limit_of[static_cast<size_t>(k)];
-      const size_t column = limit < 0 ? count : static_cast<size_t>(limit);
-      parts[r * (count + 1) + column] += static_cast<double>(rows[r][k]);
+      const size_t column = scene.weight_of[static_cast<size_t>(k)];
+      const auto p = static_cast<double>(rows[r][k]);
+      parts[r * columns + column] += p;
+      predicted[column] += p;
+      sums[r] += p;
     }
-  }
-  std::vector<double> weights(count + 1, 1.0), sums(rows.size());
-  for (size_t r = 0; r < rows.size(); ++r) {
-    for (size_t g = 0; g <= count; ++g) sums[r] += parts[r * (count + 1) + g];
   }
   for (int pass = 0; pass < kMostTiltPasses; ++pass) {
     double largest = 0.0;
-    for (size_t g = 0; g < count; ++g) {
+    for (size_t g = 0; g < empty; ++g) {
       double expected = 0.0;
       for (size_t r = 0; r < rows.size(); ++r) {
-        expected += weights[g] * parts[r * (count + 1) + g] / std::max(sums[r], kLeastRowSum);
+        expected += weights[g] * parts[r * columns + g] / std::max(sums[r], kLeastRowSum);
       }
-      const double wanted = std::clamp(expected, static_cast<double>(counter.Missing(g)),
-                                       static_cast<double>(counter.Room(g)));
+      const double wanted = g < limits
+                                ? std::clamp(expected, static_cast<double>(counter.Missing(g)),
+                                             static_cast<double>(counter.Room(g)))
+                                : predicted[g];
       largest = std::max(largest, std::abs(wanted - expected));
       if (wanted == expected) continue;
       const double before = weights[g];
       weights[g] = std::min(before * wanted / std::max(expected, kLeastExpected), kLargestTilt);
       for (size_t r = 0; r < rows.size(); ++r) {
-        sums[r] += (weights[g] - before) * parts[r * (count + 1) + g];
+        sums[r] += (weights[g] - before) * parts[r * columns + g];
       }
     }
     if (largest < kTiltTolerance) break;
@@ -135,8 +140,7 @@ void LimitedClasses::TiltScene(const SceneLimits& scene, const std::int64_t* noi
   for (size_t r = 0; r < rows.size(); ++r) {
     if (sums[r] <= kLeastRowSum) continue;  // no class is left: Hold decides
     for (int k = 0; k < classes_; ++k) {
-      const int limit = scene.limit_of[static_cast<size_t>(k)];
-      const double weight = limit < 0 ? 1.0 : weights[static_cast<size_t>(limit)];
+      const double weight = weights[scene.weight_of[static_cast<size_t>(k)]];
       rows[r][k] = static_cast<float>(static_cast<double>(rows[r][k]) * weight / sums[r]);
     }
   }

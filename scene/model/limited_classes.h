@@ -11,7 +11,8 @@ namespace simwright::scene {
 // predicts the class of each entry by itself, so that the numbers of a prompt are met on average at
 // best: of 29 wanted objects, it places 29 plus or minus two. In each denoising step
 //   1. the predicted probabilities are replaced by the closest ones, in the Kullback-Leibler
-//      divergence, whose expected numbers are within the limits (Tilt);
+//      divergence, whose expected numbers are within the limits, and for each class without a
+//      limit, such as furniture, but the empty one, as predicted (Tilt);
 //   2. of the drawn classes those beyond a limit, and those that would leave too few entries for
 //      what is missing, stay masked (Hold).
 // Of entries whose classes are independent and alike, this samples the conditional distribution.
@@ -35,6 +36,9 @@ class LimitedClasses {
   struct SceneLimits {
     std::vector<ClassLimit> limits;
     std::vector<int> limit_of;  // (K): index in `limits`; -1: none
+    // (K): index of the weight of a class; the limits' first, then those of other classes, then
+    // that of the empty class, which is 1.
+    std::vector<size_t> weight_of;
   };
   class Counter;
 

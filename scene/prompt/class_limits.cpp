@@ -36,6 +36,15 @@ std::vector<ClassLimit> ClassLimitsOf(const Prompt& prompt, const Vocabulary& vo
     others.least = 1;
   }
   if (!others.classes.empty()) limits.push_back(others);
+  // A piece of furniture has an entry, too.
+  const bool furnished = std::find(vocabulary.welded.begin(), vocabulary.welded.end(), true) !=
+                         vocabulary.welded.end();
+  int room = vocabulary.entries - (furnished ? 1 : 0);
+  for (ClassLimit& one : limits) {
+    one.least = std::min(one.least, room);
+    room -= one.least;
+    one.most = std::max(one.least, std::min(one.most, one.least + room));
+  }
   return limits;
 }
 

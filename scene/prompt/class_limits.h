@@ -18,7 +18,8 @@ struct ClassLimit {
 
 // Returns the limits that a prompt sets to the free classes of a vocabulary: as many of each name
 // as it says; of all other free classes together none without "and others", at least one with it,
-// and as many as a total count leaves. Empty for the empty prompt. No class has two limits.
+// and as many as a total count leaves; no more than the entries, one of which stays for furniture.
+// Empty for the empty prompt. No class has two limits.
 std::vector<ClassLimit> ClassLimitsOf(const Prompt& prompt, const Vocabulary& vocabulary);
 
 // Returns true if the classes are 0 .. class_count - 2, each in one limit at most, and the bounds

@@ -21,11 +21,17 @@ TEST(ClassLimits, OfNames) {
   EXPECT_EQ(ClassLimitsOf(prompt, LimitWords()),
             (std::vector<ClassLimit>{{{0}, 2, 2}, {{1, 2}, 3, 3}, {{3}, 0, 0}}));
   prompt.and_others = true;
-  EXPECT_EQ(ClassLimitsOf(prompt, LimitWords()).back(), (ClassLimit{{3}, 1, 15}));
+  EXPECT_EQ(ClassLimitsOf(prompt, LimitWords()).back(), (ClassLimit{{3}, 1, 14}));
   prompt.count = 9;
   EXPECT_EQ(ClassLimitsOf(prompt, LimitWords()).back(), (ClassLimit{{3}, 4, 4}));
   prompt.count = 3;  // fewer than the names
   EXPECT_EQ(ClassLimitsOf(prompt, LimitWords()).back(), (ClassLimit{{3}, 0, 0}));
+}
+
+TEST(ClassLimits, LeaveAnEntryForFurniture) {
+  Prompt prompt{PromptKind::kNames, {}, {{"apple", 15}, {"can", 200}}, false, {}, {}};
+  EXPECT_EQ(ClassLimitsOf(prompt, LimitWords()),
+            (std::vector<ClassLimit>{{{0}, 15, 15}, {{1, 2}, 4, 4}, {{3}, 0, 0}}));
 }
 
 TEST(ClassLimits, OfNoneAndOfAllNames) {

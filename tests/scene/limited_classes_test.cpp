@@ -22,7 +22,7 @@ TEST(LimitedClasses, TiltsToTheClosestProbabilities) {
   // Two masked entries, three classes; exactly one object of class 0 is wanted. The projection
   // multiplies class 0 by w in each entry: 0.6 w / (0.6 w + 0.4) + 0.1 w / (0.1 w + 0.9) = 1,
   // 0.06 w^2 = 0.36, w = sqrt(6).
-  const LimitedClasses limits({{{{0}, 1, 1}}}, 3);
+  const LimitedClasses limits({{{{0}, 1, 1}, {{1}, 0, 9}}}, 3);
   const torch::Tensor p = torch::tensor({{{0.6f, 0.3f, 0.1f}, {0.1f, 0.4f, 0.5f}}});
   const torch::Tensor tilted = limits.Tilt(p, torch::full({1, 2}, 3, torch::kLong));
   const double w = std::sqrt(6.0);
@@ -39,6 +39,19 @@ TEST(LimitedClasses, LeavesProbabilitiesWithinTheLimits) {
   const torch::Tensor masked = torch::full({2, 3}, 4, torch::kLong);
   EXPECT_TRUE(limits.Tilt(even, masked).allclose(even, 0.0, 1e-6));
   EXPECT_TRUE(limits.Tilt(p, masked)[1].equal(p[1])) << "a scene without limits";
+}
+
+TEST(LimitedClasses, KeepsTheExpectedNumberOfOtherClasses) {
+  // Class 1 is furniture, class 3 is empty. Class 0 is wanted four times as often as predicted.
+  const LimitedClasses limits({{{{0}, 8, 8}, {{2}, 0, 0}}}, 4);
+  const torch::Tensor p = torch::softmax(
+      torch::randn({1, 20, 4}, LimitGenerator(4)) + torch::tensor({-1.0f, -2.0f, 0.0f, 1.0f}), -1);
+  const torch::Tensor tilted = limits.Tilt(p, torch::full({1, 20}, 4, torch::kLong));
+  const torch::Tensor expected = tilted.sum(1)[0];
+  EXPECT_NEAR(expected[0].item<double>(), 8.0, 0.01);
+  EXPECT_NEAR(expected[1].item<double>(), p.sum(1)[0][1].item<double>(), 0.01);
+  EXPECT_EQ(expected[2].item<double>(), 0.0);
+  EXPECT_TRUE(tilted.sum(-1).allclose(torch::ones({1, 20}), 0.0, 1e-4));
 }
 
 TEST(LimitedClasses, CountsTheEntriesThatAreDecided) {
@@ -79,7 +92,7 @@ TEST(LimitedClasses, SamplesTheConditionalDistribution) {
   // probability 0.6 each.
   const torch::Tensor p = torch::tensor({0.5f, 0.3f, 0.2f});
   constexpr int kScenes = 4000;
-  const torch::Tensor x = SampleIndependent(p, kScenes, 5, 40, {{{0}, 2, 2}});
+  const torch::Tensor x = SampleIndependent(p, kScenes, 5, 40, {{{0}, 2, 2}, {{1}, 0, 5}});
   EXPECT_TRUE((x == 0).sum(1).eq(2).all().item<bool>());
   const torch::Tensor ones = (x == 1).sum(1);
   const double expected[] = {0.064, 0.288, 0.432, 0.216};  // binomial, 3 and 0.6

@@ -171,6 +171,12 @@ void SceneCertifyCommand::RefusesWhatDoesNotFit() {
   expect(Certify(pantry, "lift the pear", "--candidates 0 " + out), "--candidates");
   expect(Certify(pantry, "lift the pear", "--scene 9 " + out), "9");
   expect(Certify(At("missing"), "lift the pear", out), "no such scene");
+  core::WriteFile(At("pantry/escape.json"),
+                  R"([{"asset": "assets/pear", "name": "../../pear", "translation": [0, 0, 1]}])");
+  expect(Certify(At("pantry/escape.json"), "lift the pear", out), "without slashes");
+  core::WriteFile(At("pantry/far.json"),
+                  R"([{"asset": "assets/pear", "translation": [1e20, 0, 1]}])");
+  expect(Certify(At("pantry/far.json"), "lift the pear", out), "within 10 km");
   EXPECT_EQ(Certify(pantry, "lift the pear", "-o " + At("proof")).code, 1);  // it exists
 }
 

@@ -1,5 +1,7 @@
 #include "workflows/scenes/scene_source.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <map>
 #include <set>
@@ -17,6 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMaxPoseFile = 64ull << 20;  // bytes
 constexpr double kUnitLength = 1e-3;                 // deviation of a quaternion's length from 1
+constexpr double kFarthest = 1e4;  // m from the origin: beyond, single precision loses millimetres
 
 std::string SourceSceneName(int scene) {
   char name[32];
@@ -52,6 +55,13 @@ SceneSource FromDataset(const fs::path& path, const std::string& scenes, const f
   return source;
 }
 
+// Returns true for a name that files can have: results are written under the names of objects.
+bool IsFileName(const std::string& name) {
+  return name != "." && name != ".." && std::none_of(name.begin(), name.end(), [](char c) {
+           return c == '/' || c == '\\' || std::iscntrl(static_cast<unsigned char>(c));
+         });
+}
+
 // A file of poses: an export's scene.json, or one written by hand.
 class PoseFile {
  public:
@@ -68,6 +78,7 @@ class PoseFile {
     if (!root.json().is_array()) {
       source.type = root.TextOr("type", "");
       scene.name = root.TextOr("name", scene.name);
+      if (!IsFileName(scene.name)) root["name"].FailAs("a name without slashes");
     }
     const core::JsonField list = root.json().is_array() ? root : root["objects"];
     std::set<std::string> names;
@@ -93,9 +104,13 @@ class PoseFile {
   SourceObject ReadObject(const core::JsonField& field) const {
     SourceObject object;
     object.name = field.TextOr("name", "");
+    if (!IsFileName(object.name)) field["name"].FailAs("a name without slashes");
     object.slot = field.TextOr("slot", "");
     object.asset = AssetOf(field);
     object.world_from_object.translation() = field["translation"].Vector<3>();
+    if (object.world_from_object.translation().norm() > kFarthest) {
+      field["translation"].FailAs("a position within 10 km of the origin");
+    }
     if (field.Has("quaternion_wxyz")) {
       const Eigen::Vector4d q = field["quaternion_wxyz"].Vector<4>();
       if (std::abs(q.norm() - 1.0) > kUnitLength) {
