@@ -178,6 +178,12 @@ void SceneCertifyCommand::RefusesWhatDoesNotFit() {
                   R"([{"asset": "assets/pear", "translation": [1e20, 0, 1]}])");
   expect(Certify(At("pantry/far.json"), "lift the pear", out), "within 10 km");
   EXPECT_EQ(Certify(pantry, "lift the pear", "-o " + At("proof")).code, 1);  // it exists
+  for (const std::string& over : {pantry, At("")}) {
+    const Outcome refused = Certify(pantry, "lift the pear", "--force -o " + over);
+    EXPECT_EQ(refused.code, 1) << refused.text;
+    EXPECT_NE(refused.text.find("its own input"), std::string::npos) << refused.text;
+    EXPECT_TRUE(fs::exists(At("pantry/part_00000.h5")));
+  }
 }
 
 void SceneCertifyCommand::LeavesNothingWhenStopped() {

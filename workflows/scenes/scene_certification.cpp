@@ -45,6 +45,7 @@ class CertificationScenes {
  public:
   CertificationScenes(const SceneCertificationRequest& request)
       : source_(ReadSceneSource(request.scene, request.scenes, request.assets)) {
+    RefuseOutputOver(request.scene, request.output);
     const std::set<std::string> furniture = FurnitureCategories();
     scene::CategoryFolders folders;
     std::map<fs::path, std::string> keys;  // by asset folder

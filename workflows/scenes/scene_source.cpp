@@ -167,4 +167,12 @@ SceneSource ReadSceneSource(const fs::path& path, const std::string& scenes,
   return PoseFile(file, assets).Read();
 }
 
+void RefuseOutputOver(const fs::path& path, const fs::path& output) {
+  const fs::path from = fs::weakly_canonical(path), to = fs::weakly_canonical(output);
+  const auto [above, below] = std::mismatch(to.begin(), to.end(), from.begin(), from.end());
+  if (above != to.end()) return;
+  throw core::Error("the output would replace its own input", output.string(),
+                    "choose another folder");
+}
+
 }  // namespace simwright::workflows

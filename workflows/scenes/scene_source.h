@@ -39,4 +39,8 @@ struct SceneSource {
 SceneSource ReadSceneSource(const std::filesystem::path& path, const std::string& scenes,
                             const std::filesystem::path& assets);
 
+// Throws core::Error if writing the folder `output` would replace the source `path`: if it is the
+// source, or a folder above it.
+void RefuseOutputOver(const std::filesystem::path& path, const std::filesystem::path& output);
+
 }  // namespace simwright::workflows

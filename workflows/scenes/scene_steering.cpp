@@ -59,6 +59,7 @@ class SceneSteering {
         model_(LoadModel()),
         goal_(request.goal),
         source_assets_(&vocabulary()) {
+    RefuseOutputOver(request.scene, request.output);
     report_.output = request.output;
     report_.rearrange = request.goal.rearrange;
     options_.feasibility.lowering = kSampleLowering;
