@@ -33,7 +33,7 @@ struct SceneEvaluationRequest {
   scene::SampleOptions sampling;
   // True: the samples follow prompts, those of the held-out scenes, one each.
   bool prompted = false;
-  bool free_counts = false;  // SceneSamplingRequest::free_counts
+  bool free_counts = false;            // SceneSamplingRequest::free_counts
   std::filesystem::path text_encoder;  // of a model that was trained with an external one
   std::filesystem::path output;        // for metrics.json and sheet.png; empty: none
   std::uint64_t seed = 1;
