@@ -18,7 +18,7 @@ int PostTrain(workflows::ScenePostTrainingRequest request, const CommonOptions& 
   try {
     report = workflows::PostTrainScenes(request, &progress);
   } catch (const core::Cancelled&) {
-    if (!std::filesystem::exists(request.output / scene::kStateFile)) throw;
+    if (!std::filesystem::exists(request.output / steering::kRoundsFile)) throw;
     progress.Finish();
     return ReportStopped(request.output);
   }

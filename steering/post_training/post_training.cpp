@@ -61,6 +61,10 @@ class PostTraining {
 
   PostTrainingReport Run(core::Progress* progress) {
     const int first = trainer_->first_step() / options_.updates;
+    if (first > options_.rounds) {
+      throw core::Error("the post-training has more rounds already: " + std::to_string(first),
+                        output_.string(), "ask for at least as many");
+    }
     report_.rounds = ReadRounds(output_ / kRoundsFile, first);
     report_.checkpoints = ReadCheckpoints(output_ / kCheckpointsFile, first);
     scene::SceneStream stream(data_, {0, TrainingScenes(), kBuffer}, options_.seed);

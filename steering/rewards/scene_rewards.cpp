@@ -1,6 +1,7 @@
 #include "steering/rewards/scene_rewards.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/error.h"
 #include "scene/prompt/object_names.h"
@@ -130,8 +131,12 @@ std::unique_ptr<SceneReward> RewardNamed(const std::string& text,
                                          const scene::Vocabulary& vocabulary) {
   if (text == "objects") return ObjectCountReward(vocabulary);
   if (text == "feasible") return FeasibleCountReward(vocabulary);
-  return ExpressionReward(vocabulary,
-                          CountExpression::Parse(text, scene::NamesOfVocabulary(vocabulary)));
+  CountExpression expression = CountExpression::Parse(text, scene::NamesOfVocabulary(vocabulary));
+  if (expression.UpperBound(vocabulary.entries) >= std::numeric_limits<double>::max()) {
+    throw core::Error("the expression has no largest value, because a divisor can be 0",
+                      "\"" + text + "\"", "as in count(apple) / (1 + count(can))");
+  }
+  return ExpressionReward(vocabulary, std::move(expression));
 }
 
 }  // namespace simwright::steering

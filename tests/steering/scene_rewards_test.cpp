@@ -105,6 +105,9 @@ TEST(SceneRewards, CountObjectsByNameAndFeasibility) {
   EXPECT_EQ(NamedCountReward(vocabulary, "cups")->Evaluate(scene), 1);
   EXPECT_EQ(RewardNamed("count(cup) + 10 * feasible(plate)", vocabulary)->Evaluate(scene), 12);
   EXPECT_EQ(RewardNamed("count()", vocabulary)->Evaluate(scene), 3);
+  EXPECT_EQ(RewardNamed("count(cup) / (1 + count(plate))", vocabulary)->Goal(), 8);
+  EXPECT_THROW(RewardNamed("count(cup) / 0", vocabulary), core::Error);
+  EXPECT_THROW(RewardNamed("1 / (count(cup) - count(plate))", vocabulary), core::Error);
   EXPECT_THROW(NamedCountReward(vocabulary, "table"), core::Error);  // furniture has no name
 }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -126,6 +128,22 @@ void SceneCommand::LearnsAndSamples() {
   ASSERT_EQ(RunProgram(sample + At("again")).code, 0);
   EXPECT_EQ(core::ReadFile(fs::path(At("again")) / scene::ShardName(0)),
             core::ReadFile(fs::path(At("sampled")) / scene::ShardName(0)));
+  // A model without text holds the counts of a prompt, and says that this is all.
+  const Outcome prompted =
+      RunProgram("scene sample " + At("model") + "/model.pt --count 3 --steps 5 --raw --assets " +
+                 Dimsum() + "/assets --prompt \"two cups and a teapot\" -o " + At("prompted"));
+  ASSERT_EQ(prompted.code, 0) << prompted.text;
+  EXPECT_NE(prompted.text.find("only the counts are held"), std::string::npos) << prompted.text;
+  const scene::SceneDataset held{fs::path(At("prompted"))};
+  for (const auto& objects : DecodeScenes(held.Read(0, 3), held.vocabulary())) {
+    std::map<std::string, int> counts;
+    for (const scene::SceneObject& one : objects) counts[one.welded ? "" : one.category] += 1;
+    counts.erase("");
+    EXPECT_EQ(counts, (std::map<std::string, int>{{"cup", 2}, {"teapot", 1}}));
+  }
+  const Outcome free = RunProgram(sample + At("free") + " --free-counts --prompt \"two cups\"");
+  EXPECT_EQ(free.code, 1) << free.text;
+  EXPECT_NE(free.text.find("reads no prompts"), std::string::npos) << free.text;
   // Weights or a type must be given, and weights of one type have no other.
   for (const std::string& from : {std::string(), At("model") + "/model.pt --type pantry_shelf",
                                   std::string("--type no_such_type")}) {

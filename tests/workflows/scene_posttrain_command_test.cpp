@@ -97,6 +97,9 @@ void ScenePosttrainCommand::ContinuesAStoppedRun() {
 }
 
 void ScenePosttrainCommand::RefusesOtherSettings() {
+  const Outcome none = PostTrain("--rounds 2 --resume", "resumed");
+  EXPECT_EQ(none.code, 1) << none.text;
+  EXPECT_NE(none.text.find("no post-training to resume"), std::string::npos) << none.text;
   ASSERT_EQ(PostTrain("--rounds 2", "resumed").code, 0);
   const struct {
     std::string arguments, name;
@@ -113,6 +116,9 @@ void ScenePosttrainCommand::RefusesOtherSettings() {
   const Outcome longer = PostTrain("--rounds 4 --resume --rate 1e-5", "resumed");
   EXPECT_EQ(longer.code, 0) << longer.text;
   EXPECT_EQ(LineCount(At("resumed/rounds.csv")), 1 + 4);
+  const Outcome shorter = PostTrain("--rounds 2 --resume", "resumed");
+  EXPECT_EQ(shorter.code, 1) << shorter.text;
+  EXPECT_NE(shorter.text.find("more rounds already"), std::string::npos) << shorter.text;
   EXPECT_EQ(PostTrain("--rounds 2 --seed 2 --force", "resumed").code, 0);
 }
 
@@ -129,6 +135,7 @@ void ScenePosttrainCommand::RefusesWhatDoesNotFit() {
       {data + "--more-slots=-1", "entries"},
       {data + "--objective \"count(unicorn)\"", "unicorn"},
       {data + "--objective \"count(cup\"", "does not parse"},
+      {data + "--objective \"count(cup)/0\"", "divisor"},
       {data + "--prompt \"two unicorns\"", "unicorn"},
       {data + "--type dimsum", "either"},
       {"--data " + At("nowhere"), "nowhere"},

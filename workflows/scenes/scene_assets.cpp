@@ -142,7 +142,10 @@ scene::CategoryFolders GatherSceneAssets(const SceneAssetsRequest& request,
     for (const auto& [category, path] : here) {
       if (found.emplace(category, path).second) used.emplace(category, path);
     }
-    ReportUse(folder, used, request.categories, request.findings);
+    // Without a word on a folder whose assets come from another one.
+    if (here.empty() || !used.empty()) {
+      ReportUse(folder, used, request.categories, request.findings);
+    }
   }
   scene::CategoryFolders folders;
   for (const std::string& category : request.categories) {

@@ -37,7 +37,8 @@ constexpr int kQuickRuns = 3;          // of the classifier for a checkpoint; 10
 
 // Returns true if a folder has the files of a post-training, finished or stopped.
 bool HasPostTraining(const fs::path& folder) {
-  return fs::exists(folder / scene::kWeightsFile) || fs::exists(folder / steering::kRoundsFile) ||
+  return fs::exists(folder / kPostTrainingSettingsFile) ||
+         fs::exists(folder / scene::kWeightsFile) || fs::exists(folder / steering::kRoundsFile) ||
          fs::exists(folder / scene::kStateFile);
 }
 
@@ -66,6 +67,10 @@ void ValidatePostTraining(const ScenePostTrainingRequest& request) {
   if (request.weights.empty() == request.type.empty()) {
     throw core::Error("give either weights or a scene type to post-train", "",
                       "name a weights file, or a --type with shipped weights");
+  }
+  if (request.options.trainer.resume && !fs::exists(request.output / kPostTrainingSettingsFile)) {
+    throw core::Error("there is no post-training to resume", request.output.string(),
+                      "leave --resume out to start one");
   }
   if (HasPostTraining(request.output) && !request.options.trainer.resume && !request.force) {
     throw core::Error("a post-training already exists", request.output.string(),
@@ -315,7 +320,6 @@ ScenePostTrainingReport PostTrainScenes(const ScenePostTrainingRequest& request,
   } else {
     RemovePostTraining(request.output);
   }
-  WritePostTrainingSettings(request, weights);
   const int scenes = model.training_scenes > 0 ? std::min(model.training_scenes, data.SceneCount())
                                                : data.SceneCount();
   CountObjects(data, scenes, &report);
@@ -324,6 +328,7 @@ ScenePostTrainingReport PostTrainScenes(const ScenePostTrainingRequest& request,
   SampledScenes before, after;
   report.before = comparison.Of(weights, "before", &before, progress);
 
+  WritePostTrainingSettings(request, weights);
   steering::PostTrainingGoal goal;
   goal.rewards = [&](const SampledScenes& sampled) {
     return RewardsOf(sampled, *objective.reward, reference.furniture(), asset_set);
@@ -337,6 +342,14 @@ ScenePostTrainingReport PostTrainScenes(const ScenePostTrainingRequest& request,
   report.training =
       steering::PostTrain(weights, data, goal, request.options, request.output, progress);
 
+  const steering::Checkpoint& chosen =
+      report.training.checkpoints[static_cast<size_t>(report.training.chosen)];
+  if (chosen.score.accuracy > request.largest_accuracy) {
+    report.findings.push_back(
+        {"no-checkpoint-like-data", core::Severity::kWarning, request.output.string(),
+         "a classifier tells the samples of every checkpoint from data with more than the "
+         "largest accuracy (fewer rounds, a lower --rate, or a larger --data-weight)"});
+  }
   report.after = comparison.Of(request.output / scene::kWeightsFile, "after", &after, progress);
   progress->Stage("pictures");
   WriteBeforeAfter(PairsOf(before, after), asset_set, request.output);

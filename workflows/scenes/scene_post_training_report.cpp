@@ -2,6 +2,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "core/finding_json.h"
 #include "core/json.h"
 #include "core/line_plot.h"
 #include "workflows/scenes/scene_post_training.h"
@@ -91,13 +92,14 @@ std::string PostTrainingTable(const ScenePostTrainingReport& report) {
       FormattedLine("%s: reward \"%s\", %s model, %zu rounds, %.0f s\n", report.output.c_str(),
                     report.objective.c_str(), report.continuous ? "continuous" : "mixed",
                     training.rounds.size(), report.seconds);
-  text += FormattedLine(
-      "chosen: round %d, the largest reward with a classifier accuracy of at most "
-      "%.1f %% (%.1f %%)\n",
-      chosen.round, 100.0 * report.largest_accuracy, 100.0 * chosen.score.accuracy);
+  const char* const rule = chosen.score.accuracy <= report.largest_accuracy
+                               ? "the largest reward with a classifier accuracy of at most "
+                               : "the smallest classifier accuracy, because none is at most ";
+  text += FormattedLine("chosen: round %d, %s%.1f %% (%.1f %%)\n", chosen.round, rule,
+                        100.0 * report.largest_accuracy, 100.0 * chosen.score.accuracy);
   text += FormattedLine("objects in the data: mean %.2f, most %d\n", report.data_objects,
                         report.data_most_objects);
-  text += "samples   reward  objects     most furnished%  class.%   valid%    after     most\n";
+  text += "samples   reward  objects     most furnished%  class.%   whole%  settled     most\n";
   text += SamplesLine("before", report.before) + SamplesLine("after", report.after);
   text +=
       FormattedLine("time: sampling %.0f s, rewards %.0f s, updates %.0f s, checkpoints %.0f s\n",
@@ -130,6 +132,7 @@ std::string PostTrainingJson(const ScenePostTrainingReport& report) {
   json["update_seconds"] = training.update_seconds;
   json["scoring_seconds"] = training.scoring_seconds;
   json["seconds"] = report.seconds;
+  json["findings"] = core::FindingsJson(report.findings);
   return core::JsonText(json);
 }
 

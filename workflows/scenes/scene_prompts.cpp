@@ -58,7 +58,7 @@ std::vector<std::string> StatementsOf(const scene::Prompt& prompt) {
 
 PromptReport ReportOf(const scene::Prompt& prompt, size_t index, size_t prompts,
                       const std::vector<std::vector<scene::SceneObject>>& scenes,
-                      const scene::CategorySizes& sizes) {
+                      const scene::CategorySizes& sizes, const std::vector<char>& counted) {
   PromptReport report;
   report.text = prompt.Text();
   for (const std::string& statement : StatementsOf(prompt)) {
@@ -66,6 +66,7 @@ PromptReport ReportOf(const scene::Prompt& prompt, size_t index, size_t prompts,
   }
   double held = 0.0;
   for (size_t i = index; i < scenes.size(); i += prompts) {
+    if (!counted.empty() && counted[i] == 0) continue;
     const scene::PromptAgreement agreement = AgreementWith(prompt, scenes[i], sizes);
     ++report.scenes;
     report.apf += agreement.apf;
@@ -133,10 +134,11 @@ std::vector<std::string> TextsOf(const std::vector<scene::Prompt>& prompts) {
 
 std::vector<PromptReport> ReportsOf(const std::vector<scene::Prompt>& prompts,
                                     const std::vector<std::vector<scene::SceneObject>>& scenes,
-                                    const scene::CategorySizes& sizes) {
+                                    const scene::CategorySizes& sizes,
+                                    const std::vector<char>& counted) {
   std::vector<PromptReport> reports;
   for (size_t i = 0; i < prompts.size(); ++i) {
-    reports.push_back(ReportOf(prompts[i], i, prompts.size(), scenes, sizes));
+    reports.push_back(ReportOf(prompts[i], i, prompts.size(), scenes, sizes, counted));
   }
   return reports;
 }

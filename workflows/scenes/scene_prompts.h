@@ -53,10 +53,12 @@ struct PromptReport {
   std::vector<Broken> broken;
 };
 
-// Returns one report per prompt; scene i has prompt i % n. Empty if there are no prompts.
+// Returns one report per prompt; scene i has prompt i % n, and is left out if `counted` is 0 for
+// it (empty: all count). Empty if there are no prompts.
 std::vector<PromptReport> ReportsOf(const std::vector<scene::Prompt>& prompts,
                                     const std::vector<std::vector<scene::SceneObject>>& scenes,
-                                    const scene::CategorySizes& sizes);
+                                    const scene::CategorySizes& sizes,
+                                    const std::vector<char>& counted = {});
 
 // Format the reports as lines for people and as JSON.
 std::string PromptTable(const std::vector<PromptReport>& reports);

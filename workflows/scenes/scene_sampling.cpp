@@ -38,6 +38,13 @@ std::vector<std::vector<scene::SceneObject>> ObjectsOf(const std::vector<Sampled
   return objects;
 }
 
+// Returns 1 for each scene that is kept.
+std::vector<char> ValidOf(const std::vector<Sampled>& scenes) {
+  std::vector<char> valid;
+  for (const Sampled& one : scenes) valid.push_back(one.attempt.valid);
+  return valid;
+}
+
 Sampled AsSampled(std::vector<scene::SceneObject> objects) {
   Sampled sampled;
   const int count = static_cast<int>(objects.size());
@@ -102,15 +109,16 @@ fs::path SamplingWeights(const SceneSamplingRequest& request) {
   return request.weights.empty() ? ShippedSceneWeights(request.type) : request.weights;
 }
 
-scene::ShardOrigin OriginOf(const SceneSamplingRequest& request, const fs::path& weights) {
+scene::ShardOrigin OriginOf(const SceneSamplingRequest& request,
+                            const std::vector<std::string>& prompts, const fs::path& weights) {
   core::OrderedJson settings;
   settings["weights"] = core::ContentHash(core::ReadFile(weights));
   settings["steps"] = request.sampling.steps;
   settings["eta"] = request.sampling.eta;
   settings["raw"] = request.raw;
-  if (!request.sampling.prompts.empty()) {
+  if (!prompts.empty()) {
     settings["guidance"] = request.sampling.guidance;
-    settings["prompts"] = request.sampling.prompts;
+    settings["prompts"] = prompts;
     settings["counts_held"] = !request.sampling.limits.empty();
   }
   if (!request.raw) settings["lowering"] = kSampleLowering;
@@ -130,10 +138,41 @@ scene::SceneModel LoadWithAssets(const SceneSamplingRequest& request, const fs::
   return model;
 }
 
+void ValidateSampling(const SceneSamplingRequest& request) {
+  if (request.count < 1) {
+    throw core::Error("at least 1 scene must be sampled", "--count", "ask for one or more");
+  }
+  std::string error;
+  if (!request.sampling.IsValid(&error)) throw core::Error("sampling: " + error);
+}
+
+// Sets what makes a model follow prompts: their words, if it reads any, and the counts. Throws
+// core::Error if neither can be.
+void FollowPrompts(const std::vector<scene::Prompt>& prompts, const scene::SceneModelOptions& model,
+                   const scene::Vocabulary& vocabulary, const fs::path& weights,
+                   SceneSamplingRequest* request, core::Findings* findings) {
+  if (prompts.empty()) return;
+  const bool held = !request->free_counts && !model.continuous;
+  if (!model.text && !held) {
+    throw core::Error("the model reads no prompts", weights.string(), "train one with --text");
+  }
+  if (model.text) {
+    request->sampling.prompts = TextsOf(prompts);
+  } else {
+    findings->push_back({"prompt-counts-only", core::Severity::kWarning, weights.string(),
+                         "the model reads no prompts: of a prompt only the counts are held, and "
+                         "its relations where physics can (train a model with --text)"});
+  }
+  if (!held) return;
+  for (const scene::Prompt& prompt : prompts) {
+    request->sampling.limits.push_back(scene::ClassLimitsOf(prompt, vocabulary));
+  }
+}
+
 }  // namespace
 
 SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progress* progress) {
-  if (wanted.count < 1) throw core::Error("at least 1 scene must be sampled", "--count");
+  ValidateSampling(wanted);
   const fs::path weights = SamplingWeights(wanted);
   const scene::SceneModelMetadata metadata = scene::ReadSceneModelMetadata(weights);
   CheckSceneType(metadata, wanted.type, weights);
@@ -145,12 +184,8 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
   const scene::SceneModel model = LoadWithAssets(
       request, weights, ChooseSceneType(metadata, request.type, requested, &findings));
   const scene::Vocabulary& vocabulary = model.metadata().vocabulary;
-  request.sampling.prompts = TextsOf(prompts);
-  if (!request.free_counts && !metadata.options.continuous) {
-    for (const scene::Prompt& prompt : prompts) {
-      request.sampling.limits.push_back(scene::ClassLimitsOf(prompt, vocabulary));
-    }
-  }
+  const std::vector<std::string> texts = TextsOf(prompts);
+  FollowPrompts(prompts, metadata.options, vocabulary, weights, &request, &findings);
   core::StagedFolder staged(request.output, request.force);
   const scene::AssetSet asset_set =
       scene::ReadAssetSet(GatherSceneAssets({vocabulary.categories, request.added, request.assets,
@@ -168,8 +203,8 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
       FinishScenes(tokens, vocabulary, asset_set, prompts, request.raw, progress);
   report.physics_seconds = SamplingSeconds(start);
   const scene::SceneShard part =
-      PartOf(scenes, vocabulary, request.sampling.prompts, OriginOf(request, weights));
-  report.prompts = ReportsOf(prompts, ObjectsOf(scenes), asset_set.Sizes());
+      PartOf(scenes, vocabulary, texts, OriginOf(request, texts, weights));
+  report.prompts = ReportsOf(prompts, ObjectsOf(scenes), asset_set.Sizes(), ValidOf(scenes));
   scene::WriteShard(part, staged.staging() / scene::ShardName(0));
   report.statistics = StatisticsOf(part.attempts);
   report.statistics.type = vocabulary.type;
