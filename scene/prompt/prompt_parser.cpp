@@ -69,6 +69,7 @@ class PromptParser {
   void CloseRelation(const Mention& object);
   void AddRelations(const Mention& subject, const PromptItem& relation, const Mention& object);
   void AddTiers(const Mention& subject, ShelfTier tier);
+  void NoteFurniture(const PromptItem& item);
   void Note(const char* code, core::Severity severity, const std::string& sentence);
   bool NextIs(Kind kind) const { return at_ + 1 < items_.size() && items_[at_ + 1].kind == kind; }
   void Drop() { quantity_ = {}; }
@@ -188,6 +189,7 @@ void PromptParser::ReadJoint(const PromptItem& item) {
       are_ = true;
       break;
     case Kind::kPlace:
+      NoteFurniture(item);
       if (open_) {
         last_subject_ = open_->subject;
         closed_ = true;
@@ -464,6 +466,16 @@ void PromptParser::ReadUnknown() {
   unknown_subject_ = true;
   mention_.clear();
   Drop();
+}
+
+// Says that a number of tables or shelves has no effect: they belong to the scene type.
+void PromptParser::NoteFurniture(const PromptItem& item) {
+  const bool furniture = item.words.starts_with("table") || item.words.starts_with("shel");
+  const bool counted = none_ || (quantity_.number && *quantity_.number != 1);
+  if (!furniture || !counted) return;
+  const std::string words = (none_ ? none_words_ : quantity_.words) + " " + item.words;
+  Note("prompt-furniture", core::Severity::kWarning,
+       "\"" + words + "\" is ignored: furniture belongs to the scene type");
 }
 
 void PromptParser::AddRelations(const Mention& subject, const PromptItem& relation,

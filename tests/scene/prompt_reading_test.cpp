@@ -97,6 +97,9 @@ TEST(ReadPrompt, ItsOwnWordingForCountsWithNames) {
 
 TEST(ReadPrompt, ChosenNumbersAreNotes) {
   EXPECT_EQ(Canonical("several apples"), "A scene with four apples.");
+  EXPECT_TRUE(HasFinding(Reading("two shelves and a mug"), "prompt-furniture", "two shelves"));
+  EXPECT_TRUE(HasFinding(Reading("no table and a mug"), "prompt-furniture", "no table"));
+  EXPECT_FALSE(HasFinding(Reading("a mug on a table"), "prompt-furniture", ""));
   EXPECT_TRUE(HasFinding(Reading("lots of mugs"), "prompt-number-chosen", "six mugs"));
   EXPECT_TRUE(HasFinding(Reading("apples"), "prompt-number-chosen", "three apples"));
   EXPECT_TRUE(HasFinding(Reading("a mug between two bowls"), "prompt-word-ignored", "between"));
