@@ -86,8 +86,7 @@ class PostTraining {
     const auto chosen = static_cast<size_t>(report_.chosen);
     core::WriteFile(output_ / scene::kWeightsFile,
                     core::ReadFile(report_.checkpoints[chosen].weights));
-    trainer_->Finish();
-    return report_;
+    return report_;  // the state stays: more rounds may follow
   }
 
  private:

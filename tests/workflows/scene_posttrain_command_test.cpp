@@ -116,6 +116,7 @@ void ScenePosttrainCommand::RefusesOtherSettings() {
   const Outcome longer = PostTrain("--rounds 4 --resume --rate 1e-5", "resumed");
   EXPECT_EQ(longer.code, 0) << longer.text;
   EXPECT_EQ(LineCount(At("resumed/rounds.csv")), 1 + 4);
+  EXPECT_EQ(LineCount(At("resumed/checkpoints.csv")), 1 + 3) << "rounds 0, 2 and 4";
   const Outcome shorter = PostTrain("--rounds 2 --resume", "resumed");
   EXPECT_EQ(shorter.code, 1) << shorter.text;
   EXPECT_NE(shorter.text.find("more rounds already"), std::string::npos) << shorter.text;
