@@ -9,13 +9,14 @@ namespace simwright::scene {
 
 // Holds the sampling of a mixed diffusion to limits of the numbers of objects per class. A network
 // predicts the class of each entry by itself, so that the numbers of a prompt are met on average at
-// best: of 29 wanted objects, it places 29 plus or minus two. In each denoising step
+// best. In each denoising step
 //   1. the predicted probabilities are replaced by the closest ones, in the Kullback-Leibler
 //      divergence, whose expected numbers are within the limits, and for each class without a
 //      limit, such as furniture, but the empty one, as predicted (Tilt);
 //   2. of the drawn classes those beyond a limit, and those that would leave too few entries for
 //      what is missing, stay masked (Hold).
-// Of entries whose classes are independent and alike, this samples the conditional distribution.
+// The result is a sample of the conditional distribution if the classes of entries are independent
+// and identically distributed.
 class LimitedClasses {
  public:
   // `limits`: of each scene of a batch, none for a scene without. `classes`: K, with the empty one.
