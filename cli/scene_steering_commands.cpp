@@ -79,6 +79,7 @@ void AddSceneComplete(CLI::App* scene, CommonOptions* common, Run* run) {
       "Examples:\n  simwright scene complete out/dimsum --scene 3 --count 4 -o out/completed\n"
       "  simwright scene complete out/worlds/scene_00003 -o out/completed\n"
       "  simwright scene complete out/pantry --prompt \"two apples and a can\" -o out/completed\n"
+      "  simwright scene complete out/pantry --prompt \"a can on the top shelf\" -o out/higher\n"
       "  simwright scene complete poses.json --type dimsum --count 2 -o out/completed\n"
       "Objects of the scene keep their poses, and none moves by more than 1 mm once everything is\n"
       "free. The exit code is 1 if the result is not stable. See docs/steering.md.");
@@ -87,7 +88,8 @@ void AddSceneComplete(CLI::App* scene, CommonOptions* common, Run* run) {
           ->default_str("the model's choice")
           ->check(CLI::PositiveNumber);
   command
-      ->add_option("--prompt", request->prompt, "What to add, in words: \"two apples and a can\"")
+      ->add_option("--prompt", request->prompt,
+                   "What to add, and where, in words: \"two apples and a can next to the bowl\"")
       ->excludes(count);
   AddSteering(command, request.get(), common);
   command->callback([request, common, run] { *run = [=] { return Steer(*request, *common); }; });

@@ -6,18 +6,34 @@
 #include <string>
 
 #include "core/error.h"
+#include "scene/feasibility/pgs_solver.h"
 #include "scene/prompt/object_names.h"
 
 namespace simwright::scene {
 namespace {
 
+constexpr double kContradiction = 1e-4;  // m: the violation of constraints that cannot all hold
+
+// Returns the flags of the objects that a prompt means. Throws core::Error for a wrong number of
+// flags.
+std::vector<char> NamedOf(const std::vector<char>& named, const std::vector<SceneObject>& objects) {
+  if (named.empty()) {
+    std::vector<char> free;
+    for (const SceneObject& object : objects) free.push_back(!object.welded);
+    return free;
+  }
+  if (named.size() != objects.size()) throw core::Error("each object is named or not");
+  return named;
+}
+
 class RelationSearch {
  public:
-  RelationSearch(const std::vector<SceneObject>& objects, const CategorySizes& sizes)
-      : boxes_(objects.size()) {
+  RelationSearch(const std::vector<SceneObject>& objects, const CategorySizes& sizes,
+                 const std::vector<char>& named)
+      : objects_(objects), shelves_(objects, sizes), boxes_(objects.size()) {
     std::map<std::string, std::vector<int>> unordered;
     for (size_t i = 0; i < objects.size(); ++i) {
-      if (objects[i].welded) continue;
+      if (!named[i]) continue;
       boxes_[i] = BoxOf(SizeOf(sizes, objects[i].category), objects[i].world_from_object);
       unordered[NameOfCategory(objects[i].category)].push_back(static_cast<int>(i));
     }
@@ -35,7 +51,7 @@ class RelationSearch {
     double least = HUGE_VAL;
     for (const int a : Selected(statement.subject)) {
       for (const int b : Selected(statement.object)) {
-        if (a == b) continue;
+        if (a == b || (IsWelded(a) && IsWelded(b))) continue;
         const PlacedBox &subject = boxes_[static_cast<size_t>(a)],
                         &object = boxes_[static_cast<size_t>(b)];
         const KeptRelation one{a, b, statement.relation, subject, object};
@@ -49,7 +65,28 @@ class RelationSearch {
     return nearest;
   }
 
+  std::optional<KeptRelation> Find(const TierStatement& statement) const {
+    std::optional<KeptRelation> nearest;
+    double least = HUGE_VAL;
+    const std::vector<Shelves::TierSpace> spaces = shelves_.SpacesOf(statement.tier);
+    for (const int a : Selected(statement.subject)) {
+      if (IsWelded(a)) continue;
+      const PlacedBox& subject = boxes_[static_cast<size_t>(a)];
+      for (const Shelves::TierSpace& one : spaces) {
+        const KeptRelation kept{a, one.object, Relation::kOn, subject, one.space, true};
+        const double distance = BoxDistance(subject, one.space);
+        if (shelves_.TierOf(subject) == statement.tier && distance == 0.0) return kept;
+        if (distance >= least) continue;
+        least = distance;
+        nearest = kept;
+      }
+    }
+    return nearest;
+  }
+
  private:
+  bool IsWelded(int i) const { return objects_[static_cast<size_t>(i)].welded; }
+
   std::vector<int> Selected(const ObjectReference& reference) const {
     const auto found = by_name_.find(reference.name);
     if (found == by_name_.end()) return {};
@@ -59,7 +96,9 @@ class RelationSearch {
     return {found->second[at]};
   }
 
-  std::vector<PlacedBox> boxes_;                     // by object; of free ones
+  const std::vector<SceneObject>& objects_;
+  Shelves shelves_;
+  std::vector<PlacedBox> boxes_;                     // by object; of named ones
   std::map<std::string, std::vector<int>> by_name_;  // objects in the order of their ordinals
 };
 
@@ -67,16 +106,39 @@ class RelationSearch {
 
 std::vector<KeptRelation> AskedRelations(const Prompt& prompt,
                                          const std::vector<SceneObject>& objects,
-                                         const CategorySizes& sizes) {
+                                         const CategorySizes& sizes,
+                                         const std::vector<char>& named) {
   std::string error;
   if (!prompt.IsValid(&error)) throw core::Error(error, "prompt");
-  if (prompt.relations.empty()) return {};
-  const RelationSearch search(objects, sizes);
+  if (prompt.relations.empty() && prompt.tiers.empty()) return {};
+  const RelationSearch search(objects, sizes, NamedOf(named, objects));
   std::vector<KeptRelation> asked;
   for (const RelationStatement& statement : prompt.relations) {
     if (const auto found = search.Find(statement)) asked.push_back(*found);
   }
+  for (const TierStatement& statement : prompt.tiers) {
+    if (const auto found = search.Find(statement)) asked.push_back(*found);
+  }
   return asked;
+}
+
+void EstablishRelations(const Prompt& prompt, const CategorySizes& sizes,
+                        const std::vector<char>& named, std::vector<SceneObject>* objects) {
+  std::vector<SeparationConstraint> rows;
+  for (const KeptRelation& kept : AskedRelations(prompt, *objects, sizes, named)) {
+    const std::vector<SeparationConstraint> some = LinearizeRelation(kept);
+    rows.insert(rows.end(), some.begin(), some.end());
+  }
+  if (rows.empty()) return;
+  std::vector<char> fixed;
+  for (const SceneObject& object : *objects) fixed.push_back(object.welded);
+  const PgsOptions options;
+  std::vector<Eigen::Vector3d> shifts;
+  const double violation = SolveLeastDisplacement(fixed, options, &rows, &shifts);
+  if (violation > kContradiction) return;
+  for (size_t i = 0; i < objects->size(); ++i) {
+    (*objects)[i].world_from_object.pretranslate(shifts[i]);
+  }
 }
 
 }  // namespace simwright::scene

@@ -31,13 +31,17 @@ void Shift(const std::vector<Vector3d>& shifts, std::vector<SceneObject>* object
   }
 }
 
-// Resolves the penetrations of the objects and keeps the relations of the prompt where it can;
-// returns true if no penetration remains.
+// Resolves the penetrations of the objects, which have these indices in the scene, and keeps the
+// relations of the prompt where it can; returns true if no penetration remains.
 bool Depenetrate(const AssetSet& asset_set, const FeasibilityOptions& options,
-                 std::vector<SceneObject>* objects) {
+                 const std::vector<int>& indices, std::vector<SceneObject>* objects) {
   std::vector<KeptRelation> relations;
-  if (!options.prompt.relations.empty()) {
-    relations = AskedRelations(options.prompt, *objects, asset_set.Sizes());
+  if (!options.prompt.relations.empty() || !options.prompt.tiers.empty()) {
+    std::vector<char> named;
+    for (const int index : indices) {
+      if (!options.named.empty()) named.push_back(options.named[static_cast<size_t>(index)]);
+    }
+    relations = AskedRelations(options.prompt, *objects, asset_set.Sizes(), named);
   }
   const Projection projection =
       ResolvePenetrations(SceneBodies(*objects, asset_set), options.projection, relations);
@@ -47,11 +51,11 @@ bool Depenetrate(const AssetSet& asset_set, const FeasibilityOptions& options,
 
 // Arranges the objects for settling; returns true if no penetration remains.
 bool Arrange(const AssetSet& asset_set, const FeasibilityOptions& options,
-             std::vector<SceneObject>* objects) {
-  const bool apart = Depenetrate(asset_set, options, objects);
+             const std::vector<int>& indices, std::vector<SceneObject>* objects) {
+  const bool apart = Depenetrate(asset_set, options, indices, objects);
   if (options.lowering == 0.0) return apart;
   Shift(LowerOntoSupports(SceneBodies(*objects, asset_set), options.lowering), objects);
-  return Depenetrate(asset_set, options, objects);  // for bodies that slid past walls
+  return Depenetrate(asset_set, options, indices, objects);  // for bodies that slid past walls
 }
 
 std::vector<sim::SettledBody> SettleObjects(const std::vector<SceneObject>& objects,
@@ -162,11 +166,14 @@ FeasibleScene MakeFeasible(const std::vector<SceneObject>& objects, const AssetS
                            const FeasibilityOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error("feasible scene: " + error);
+  if (!options.named.empty() && options.named.size() != objects.size()) {
+    throw core::Error("feasible scene: each object is named or not");
+  }
   FeasibleScene scene;
   scene.objects = objects;
-  scene.projected = Arrange(asset_set, options, &scene.objects);
   scene.indices.resize(objects.size());
   std::iota(scene.indices.begin(), scene.indices.end(), 0);
+  scene.projected = Arrange(asset_set, options, scene.indices, &scene.objects);
   for (int pass = 0; pass < options.passes; ++pass) {
     const auto settled = SettleObjects(scene.objects, asset_set, options.settling);
     std::vector<char> kept(settled.size(), 1);
@@ -194,7 +201,7 @@ FeasibleScene MakeFeasible(const std::vector<SceneObject>& objects, const AssetS
       // again has no room.
       if (pass > 0)
         scene.dropped += DropWedged(asset_set, options.penetration, &scene.objects, &scene.indices);
-      Depenetrate(asset_set, options, &scene.objects);
+      Depenetrate(asset_set, options, scene.indices, &scene.objects);
     }
     // The objects near a dropped or moving one have not been checked without it.
     scene.drift = HUGE_VAL;

@@ -35,8 +35,10 @@ struct FeasibilityOptions {
   // objects that still move after the first pass come to rest in the second.
   int passes = 6;
   int min_objects = 3;  // fewest free objects of a scene (Pfaff et al., appendix)
-  // The projection keeps the relations of this prompt (AskedRelations) where it can.
+  // The projection keeps the relations and tiers of this prompt (AskedRelations) where it can.
+  // `named`: flags of the objects that it means, by their index in the scene; empty: the free ones.
   Prompt prompt;
+  std::vector<char> named = {};
 
   bool IsValid(std::string* error) const;
 };

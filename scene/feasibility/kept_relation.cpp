@@ -27,11 +27,29 @@ double SupportNearest(const PlacedBox& a, const PlacedBox& b) {
   return std::abs(base - b.Top()) <= std::abs(base - b.rest) ? b.Top() : b.rest;
 }
 
+// Returns true if a is over the board of the space b, and under the next one (Shelves::TierOf).
+bool IsInSpace(const PlacedBox& a, const PlacedBox& b) {
+  const Vector2d offset = (a.center - b.center).head<2>().cwiseAbs() - b.half.head<2>();
+  return offset.maxCoeff() <= 0.0 && a.Base() >= b.Base() - kContactHeight &&
+         a.Base() < b.Top() - kContactHeight;
+}
+
 // The constraints of one relation: half-spaces of d = center of a - center of b.
 class RelationPlanes {
  public:
   RelationPlanes(int subject, int object, const PlacedBox& a, const PlacedBox& b)
       : subject_(subject), object_(object), a_(a), b_(b), start_(a.center - b.center) {}
+
+  // Returns the constraints that keep a in the space b over a board, or bring it onto the board.
+  std::vector<SeparationConstraint> InSpace() {
+    Over(b_);
+    const double board = a_.half.z() - b_.half.z();  // d.z where a stands on it
+    const double most =
+        IsInSpace(a_, b_) ? a_.half.z() + b_.half.z() : board + 2.0 * kContactHeight;
+    Require(Vector3d::UnitZ(), board + kRelationMargin);
+    Require(-Vector3d::UnitZ(), kContactHeight + kRelationMargin - most);
+    return std::move(rows_);
+  }
 
   std::vector<SeparationConstraint> Of(Relation relation) {
     switch (relation) {
@@ -179,6 +197,7 @@ PlacedBox Displaced(PlacedBox box, const Vector3d& shift) {
 }  // namespace
 
 std::optional<Vector3d> SeparatingDirection(const KeptRelation& kept) {
+  if (kept.tier) return std::nullopt;
   switch (kept.relation) {
     case Relation::kOn:
     case Relation::kAbove:
@@ -203,19 +222,22 @@ std::optional<Vector3d> SeparatingDirection(const KeptRelation& kept) {
 }
 
 bool IsInCavity(const KeptRelation& kept) {
-  if (kept.relation == Relation::kInside) return true;
+  if (kept.tier || kept.relation == Relation::kInside) return true;
   return kept.relation == Relation::kOn &&
          SupportNearest(kept.subject_box, kept.object_box) < kept.object_box.Top();
 }
 
 bool HoldsAfter(const KeptRelation& kept, const std::vector<Vector3d>& shifts) {
-  return Holds(kept.relation,
-               Displaced(kept.subject_box, shifts[static_cast<size_t>(kept.subject)]),
-               Displaced(kept.object_box, shifts[static_cast<size_t>(kept.object)]));
+  const PlacedBox subject = Displaced(kept.subject_box, shifts[static_cast<size_t>(kept.subject)]);
+  const PlacedBox object = Displaced(kept.object_box, shifts[static_cast<size_t>(kept.object)]);
+  return kept.tier ? IsInSpace(subject, object) : Holds(kept.relation, subject, object);
 }
 
 std::vector<SeparationConstraint> LinearizeRelation(const KeptRelation& kept) {
   KeptRelation one = kept;
+  if (one.tier) {
+    return RelationPlanes(one.subject, one.object, one.subject_box, one.object_box).InSpace();
+  }
   if (one.relation == Relation::kBelow) {
     std::swap(one.subject, one.object);
     std::swap(one.subject_box, one.object_box);

@@ -15,6 +15,10 @@ struct KeptRelation {
   int subject = -1, object = -1;  // indices of bodies
   Relation relation = Relation::kOn;
   PlacedBox subject_box, object_box;  // of the bodies at their initial poses
+  // True for a tier of a shelf instead of `relation`: `object` is the shelf and `object_box` the
+  // space over the board (Shelves::SpacesOf). The subject's centre is over its footprint, and the
+  // subject's base is at most kContactHeight below its base and lower than the next board.
+  bool tier = false;
 };
 
 // Returns true if the relation holds for bodies displaced by `shifts` (N x 3, m, world).
@@ -29,11 +33,11 @@ bool HoldsAfter(const KeptRelation& kept, const std::vector<Eigen::Vector3d>& sh
 std::vector<SeparationConstraint> LinearizeRelation(const KeptRelation& kept);
 
 // Returns the direction, world, in which the subject has to leave the object if both collide: up
-// for on and above, sideways for the horizontal relations; unset for inside and facing.
+// for on and above, sideways for the horizontal relations; unset for inside, facing and tiers.
 std::optional<Eigen::Vector3d> SeparatingDirection(const KeptRelation& kept);
 
 // Returns true if the relation puts one body into the other's cavity, so that the hull of both says
-// nothing about their contact: inside, and on the floor of a plate.
+// nothing about their contact: inside, on the floor of a plate, and between the boards of a shelf.
 bool IsInCavity(const KeptRelation& kept);
 
 }  // namespace simwright::scene

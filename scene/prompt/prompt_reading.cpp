@@ -234,6 +234,10 @@ PromptReading ReadPrompt(std::string_view text, const std::vector<std::string>& 
   const ParsedPrompt parsed = ParsePrompt(FindPromptItems(words, lookup), lookup);
   reading.findings = parsed.findings;
   reading.prompt = PromptOf(parsed, lookup, &reading.findings);
+  for (const MentionedName& one : parsed.names) {
+    if (one.asked > 0 || one.implied == 0) continue;
+    reading.referred.push_back(lookup.names()[static_cast<size_t>(one.name)]);
+  }
   AddUnknownFindings(parsed, lookup, &reading.findings);
   reading.text = reading.prompt.Text();
   return reading;

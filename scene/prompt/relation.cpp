@@ -12,6 +12,8 @@ namespace simwright::scene {
 namespace {
 
 constexpr double kOrdinalStep = 0.01;  // m
+constexpr double kTopSpace = 1.0;      // m, over the uppermost board of a shelf
+constexpr double kAligned = 0.9999;    // least cosine between an axis of a shelf and of the world
 const double kCosFacing = std::cos(kFacingAngle);
 
 constexpr std::array<const char*, kRelationCount> kRelationTexts = {
@@ -142,15 +144,15 @@ const char* ShelfTierText(ShelfTier tier) {
 }
 
 Shelves::Shelves(const std::vector<SceneObject>& objects, const CategorySizes& sizes) {
-  for (const SceneObject& object : objects) {
-    if (!object.welded || !object.category.starts_with("shelf")) continue;
-    Add(SizeOf(sizes, object.category), object.world_from_object);
+  for (size_t i = 0; i < objects.size(); ++i) {
+    if (!objects[i].welded || !objects[i].category.starts_with("shelf")) continue;
+    Add(SizeOf(sizes, objects[i].category), objects[i].world_from_object, static_cast<int>(i));
   }
 }
 
-void Shelves::Add(const CategorySize& size, const Eigen::Isometry3d& world_from_shelf) {
+void Shelves::Add(const CategorySize& size, const Eigen::Isometry3d& world_from_shelf, int object) {
   const double scale = size.height / ShelfBoardHeights().back();
-  shelves_.push_back({world_from_shelf.inverse(), size.half_size, scale});
+  shelves_.push_back({world_from_shelf.inverse(), size.half_size, scale, object});
 }
 
 std::optional<ShelfTier> Shelves::TierOf(const PlacedBox& box) const {
@@ -167,6 +169,28 @@ std::optional<ShelfTier> Shelves::TierOf(const PlacedBox& box) const {
     }
   }
   return std::nullopt;
+}
+
+std::vector<Shelves::TierSpace> Shelves::SpacesOf(ShelfTier tier) const {
+  const auto& heights = ShelfBoardHeights();
+  const size_t board = heights.size() - 1 - static_cast<size_t>(tier);
+  std::vector<TierSpace> spaces;
+  for (const Shelf& shelf : shelves_) {
+    const Eigen::Isometry3d world_from_shelf = shelf.shelf_from_world.inverse();
+    const Eigen::Matrix3d turned = world_from_shelf.linear().cwiseAbs();
+    if (turned.col(0).maxCoeff() < kAligned || turned(2, 2) < kAligned) continue;
+    const double low = heights[board] * shelf.scale;
+    const double high =
+        board + 1 < heights.size() ? heights[board + 1] * shelf.scale : low + kTopSpace;
+    TierSpace one;
+    one.object = shelf.object;
+    one.space.center = world_from_shelf * Eigen::Vector3d(0.0, 0.0, 0.5 * (low + high));
+    one.space.half =
+        turned * Eigen::Vector3d(shelf.half_size.x(), shelf.half_size.y(), 0.5 * (high - low));
+    one.space.rest = one.space.Base();
+    spaces.push_back(one);
+  }
+  return spaces;
 }
 
 std::vector<int> OrdinalOrder(const std::vector<const PlacedBox*>& boxes) {

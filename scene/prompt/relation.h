@@ -102,8 +102,8 @@ class Shelves {
   // core::Error for a shelf without a size.
   Shelves(const std::vector<SceneObject>& objects, const CategorySizes& sizes);
 
-  // Adds a shelf of that size at that pose.
-  void Add(const CategorySize& size, const Eigen::Isometry3d& world_from_shelf);
+  // Adds a shelf of that size at that pose; `object` is its index in the scene.
+  void Add(const CategorySize& size, const Eigen::Isometry3d& world_from_shelf, int object = -1);
   Shelves() = default;
 
   bool empty() const { return shelves_.empty(); }
@@ -113,11 +113,21 @@ class Shelves {
   // shelf's footprint or its base is lower than the lowest board.
   std::optional<ShelfTier> TierOf(const PlacedBox& box) const;
 
+  // The space over a board: the shelf's footprint, from the board up to the next one.
+  struct TierSpace {
+    int object = -1;  // the index of the shelf in the scene
+    PlacedBox space;
+  };
+  // Returns the spaces of that tier, one for each shelf; the uppermost is 1 m high. Leaves out
+  // shelves that lean or are turned by other than multiples of 90 degrees.
+  std::vector<TierSpace> SpacesOf(ShelfTier tier) const;
+
  private:
   struct Shelf {
     Eigen::Isometry3d shelf_from_world;
     Eigen::Vector2d half_size;
     double scale;
+    int object;
   };
   std::vector<Shelf> shelves_;
 };

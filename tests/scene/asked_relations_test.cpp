@@ -69,6 +69,61 @@ TEST(AskedRelations, LeavesOutWhatTheSceneLacks) {
   EXPECT_THROW(AskedRelations(PromptAsking({}, prompt.relations), {}, DrumSizes()), core::Error);
 }
 
+// The cup that is there is fixed: a new one is meant, and the teapot that is there.
+TEST(AskedRelations, OfNamedObjectsThatMayBeFixed) {
+  std::vector<SceneObject> objects = {ObjectAt("cup", 0.0, 0.15), ObjectAt("teapot", 0.0, 0.0),
+                                      ObjectAt("cup", 0.3, 0.0)};
+  objects[0].welded = objects[1].welded = true;
+  const Prompt prompt =
+      PromptAsking({{"cup", 1}, {"teapot", 1}}, {{{"cup", 0}, Relation::kLeftOf, {"teapot", 0}}});
+  EXPECT_TRUE(AskedRelations(prompt, objects, DrumSizes()).empty());
+  EXPECT_TRUE(AskedRelations(prompt, objects, DrumSizes(), {1, 1, 0}).empty());
+  const std::vector<char> named = {0, 1, 1};
+  const auto asked = AskedRelations(prompt, objects, DrumSizes(), named);
+  ASSERT_EQ(asked.size(), 1u);
+  EXPECT_EQ(asked[0].subject, 2);
+  EXPECT_EQ(asked[0].object, 1);
+  EXPECT_THROW(AskedRelations(prompt, objects, DrumSizes(), {1}), core::Error);
+  std::vector<SceneObject> moved = objects;
+  EstablishRelations(prompt, DrumSizes(), named, &moved);
+  for (const size_t fixed : {0u, 1u}) {
+    EXPECT_EQ(moved[fixed].world_from_object.matrix(), objects[fixed].world_from_object.matrix());
+  }
+  const Vector3d at = moved[2].world_from_object.translation();
+  EXPECT_GE(at.y(), 0.09);  // beyond the teapot's radius, and nearer to the left than to the back
+  EXPECT_LE(std::abs(at.x()), at.y());
+}
+
+TEST(AskedRelations, ContradictionsMoveNothing) {
+  const std::vector<SceneObject> objects = {ObjectAt("cup", 0.0, 0.4), ObjectAt("teapot", 0, 0)};
+  std::vector<SceneObject> moved = objects;
+  EstablishRelations(
+      PromptAsking({{"cup", 1}, {"teapot", 1}}, {{{"cup", 0}, Relation::kLeftOf, {"teapot", 0}},
+                                                 {{"cup", 0}, Relation::kBehind, {"teapot", 0}}}),
+      DrumSizes(), {}, &moved);
+  for (size_t i = 0; i < objects.size(); ++i) {
+    EXPECT_EQ(moved[i].world_from_object.matrix(), objects[i].world_from_object.matrix());
+  }
+}
+
+TEST(AskedRelations, TiersAreOfTheNearestShelf) {
+  SceneObject shelf = ObjectAt("shelf_pantry", 0.0, 0.0);
+  shelf.welded = true;
+  std::vector<SceneObject> objects = {ObjectAt("cup", 0.0, 0.0), shelf, shelf};
+  objects[2].world_from_object.translation().x() = 0.5;
+  CategorySizes sizes = DrumSizes();
+  sizes["shelf_pantry"] = DefaultCategorySizes().at("shelf_pantry");
+  Prompt prompt = PromptAsking({{"cup", 1}}, {});
+  prompt.tiers = {{{"cup", 0}, ShelfTier::kSecond}};
+  const auto asked = AskedRelations(prompt, objects, sizes);
+  ASSERT_EQ(asked.size(), 1u);
+  EXPECT_TRUE(asked[0].tier);
+  EXPECT_EQ(asked[0].object, 1);
+  EstablishRelations(prompt, sizes, {}, &objects);
+  EXPECT_EQ(AgreementWith(prompt, objects, sizes).held, 1);
+  EXPECT_NEAR(objects[0].world_from_object.translation().x(), 0.0, 1e-9);
+}
+
 AssetSet DrumsOfPrompts() {
   AssetSet asset_set;
   for (const auto& [category, size] : DrumSizes()) {

@@ -98,6 +98,26 @@ TEST(KeptRelation, EstablishesEachRelationFromAnywhereNear) {
   }
 }
 
+// A cube 20 cm under a board of 40 x 40 cm, 25 cm beside its middle: it comes to stand on it, 0.15
+// m inward with a millimetre of margin. One that is there already, in a stack, stays.
+TEST(KeptRelation, TiersLiftOntoTheBoard) {
+  PlacedBox space;
+  space.center = Vector3d(0.0, 0.0, 0.5);
+  space.half = Vector3d(0.2, 0.2, 0.2);
+  const CategorySize size = BoxSize(0.5 * kSide, 0.5 * kSide, kSide);
+  for (const bool there : {false, true}) {
+    const Isometry3d pose = RelationPose(there ? 0.1 : 0.25, 0.0, there ? 0.45 : 0.1);
+    const std::vector<ProjectedBody> bodies = {{&CubeParts(), pose, false},
+                                               {&CubeParts(), RelationPose(0, 0, -1.0), true}};
+    const KeptRelation tier{0, 1, Relation::kOn, BoxOf(size, pose), space, true};
+    EXPECT_EQ(HoldsAfter(tier, {Vector3d::Zero(), Vector3d::Zero()}), there);
+    const Projection kept = ResolvePenetrations(bodies, {}, {tier});
+    EXPECT_TRUE(kept.broken.empty());
+    const Vector3d expected = there ? Vector3d::Zero() : Vector3d(-0.051, 0.0, 0.201);
+    EXPECT_LT((kept.shifts[0] - expected).norm(), 1e-4) << kept.shifts[0].transpose();
+  }
+}
+
 TEST(KeptRelation, ContradictionsAreSaidAndTheRestIsKept) {
   const std::vector<ProjectedBody> bodies =
       TwoCubes(RelationPose(0.06, 0.03, 0.0), RelationPose(0.0, 0.0, 0.0));

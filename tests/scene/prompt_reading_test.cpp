@@ -107,6 +107,14 @@ TEST(ReadPrompt, ChosenNumbersAreNotes) {
   EXPECT_TRUE(HasFinding(Reading("a mug and a mug"), "prompt-repeated-name", "mugs"));
 }
 
+TEST(ReadPrompt, ReferencesAreNotAskedFor) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(Reading("an apple to the left of the bowl").referred, Names{"bowl"});
+  EXPECT_EQ(Reading("an apple and a bowl; the apple is in the bowl").referred, Names{});
+  EXPECT_EQ(Reading("two apples behind the second mug").referred, Names{"mug"});
+  EXPECT_EQ(Reading("another bowl").referred, Names{});
+}
+
 TEST(ReadPrompt, Statements) {
   const std::string both = "A scene with an apple and a bowl. The apple is ";
   for (const auto& [words, relation] :

@@ -132,6 +132,33 @@ TEST(PromptRelation, TiersAreBoardsFromTheTopDown) {
   EXPECT_EQ(shelves.TierOf(RelationBox("can", 1.1, 2.25, 0.0)), std::nullopt);
 }
 
+// The spaces of a shelf that is turned by a right angle: what stands on a board is on its tier, and
+// in its space.
+TEST(PromptRelation, SpacesOfTiersAreThoseOfTierOf) {
+  SceneObject shelf;
+  shelf.category = "shelf_pantry";
+  shelf.welded = true;
+  const auto turn = [&](double yaw) {
+    shelf.world_from_object =
+        Eigen::Translation3d(1.0, 2.0, 0.1) * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
+    return Shelves({SceneObject(), shelf}, DefaultCategorySizes());
+  };
+  const Shelves shelves = turn(0.5 * std::numbers::pi);
+  for (int i = 0; i < 4; ++i) {
+    const auto tier = static_cast<ShelfTier>(3 - i);
+    const std::vector<Shelves::TierSpace> spaces = shelves.SpacesOf(tier);
+    ASSERT_EQ(spaces.size(), 1u);
+    EXPECT_EQ(spaces[0].object, 1);
+    const PlacedBox& space = spaces[0].space;
+    EXPECT_NEAR(space.Base(), 0.1 + ShelfBoardHeights()[static_cast<size_t>(i)], 1e-12);
+    EXPECT_NEAR(space.half.x(), 0.3, 1e-12);  // 0.6 m wide, 0.3 m deep
+    EXPECT_NEAR(space.half.y(), 0.15, 1e-12);
+    EXPECT_EQ(shelves.TierOf(RelationBox("can", 1.25, 2.1, space.Base())), tier);
+    EXPECT_EQ(BoxDistance(RelationBox("can", 1.25, 2.1, space.Base()), space), 0.0);
+  }
+  EXPECT_TRUE(turn(0.3).SpacesOf(ShelfTier::kTop).empty());
+}
+
 TEST(PromptRelation, OrdinalsCountFromLeftToRight) {
   const std::vector<PlacedBox> boxes = {
       RelationBox("apple", 0, -0.2, 0), RelationBox("apple", 0.3, 0.1, 0),

@@ -26,6 +26,7 @@ class SceneSteeringCommand : public testing::Test {
  protected:
   // One test runs all checks, because separate processes would each make all assets again.
   static void CompletesSeveralScenes();
+  static void CompletesAsThePromptSays();
   static void RearrangesWhatIsNotKept();
   static void TakesAnExportedSceneAndPoses();
   static void NamesWhatTheModelDoesNotSee();
@@ -105,6 +106,39 @@ void SceneSteeringCommand::CompletesSeveralScenes() {
       0);
   EXPECT_EQ(core::ReadFile(fs::path(At("again")) / scene::ShardName(0)),
             core::ReadFile(fs::path(At("completed")) / scene::ShardName(0)));
+}
+
+// The plate of the prompt is one that is there; the teapot is there or added.
+void SceneSteeringCommand::CompletesAsThePromptSays() {
+  const Objects before = ObjectsOf(Dimsum(), 1);
+  ASSERT_GT(CategoryCounts(before)["plate"], 0);
+  const Outcome made = RunProgram("scene complete " + Dimsum() +
+                                      " --scene 1 --prompt \"a cup to the left of the plate\" "
+                                      "--json -o " +
+                                      At("left"),
+                                  "/dev/null");
+  ASSERT_EQ(made.code, 0) << made.text;
+  const json scene = json::parse(made.text)["scenes"][0];
+  EXPECT_EQ(scene["asked"], 1);
+  EXPECT_EQ(scene["relations"], 1);
+  const Objects after = ObjectsOf(At("left"), 0);
+  bool left = false;
+  const auto last = std::find_if(after.begin(), after.end(), [&](const auto& one) {
+    return one.category == "cup" && StandingCount({one}, before) == 0;
+  });
+  ASSERT_NE(last, after.end());
+  for (const scene::SceneObject& plate : before) {
+    if (plate.category != "plate") continue;
+    const Eigen::Vector3d offset =
+        last->world_from_object.translation() - plate.world_from_object.translation();
+    left = left || (offset.y() >= std::abs(offset.x()) && offset.head<2>().norm() < 0.45);
+  }
+  EXPECT_EQ(scene["relations_broken"].empty(), left) << made.text;
+  EXPECT_TRUE(left);
+  const Outcome nothing = RunProgram("scene complete " + Dimsum() +
+                                     " --scene 1 --prompt \"the plate\" --quiet -o " + At("none"));
+  EXPECT_EQ(nothing.code, 1);
+  EXPECT_NE(nothing.text.find("another plate"), std::string::npos) << nothing.text;
 }
 
 void SceneSteeringCommand::RearrangesWhatIsNotKept() {
@@ -241,6 +275,7 @@ void SceneSteeringCommand::LeavesNothingWhenStopped() {
 TEST_F(SceneSteeringCommand, KeepsWhatStands) {
   ASSERT_EQ(generated_.code, 0) << generated_.text;
   CompletesSeveralScenes();
+  CompletesAsThePromptSays();
   RearrangesWhatIsNotKept();
   TakesAnExportedSceneAndPoses();
   NamesWhatTheModelDoesNotSee();

@@ -48,14 +48,6 @@ bool IsBareScene(const std::string& text) {
   return letters == "scene" || letters == "ascene" || letters == "thescene";
 }
 
-// Returns the statements of a prompt as sentences, in the order of PromptAgreement::holds.
-std::vector<std::string> StatementsOf(const scene::Prompt& prompt) {
-  std::vector<std::string> statements;
-  for (const auto& one : prompt.relations) statements.push_back(StatementText(one, prompt));
-  for (const auto& one : prompt.tiers) statements.push_back(StatementText(one, prompt));
-  return statements;
-}
-
 PromptReport ReportOf(const scene::Prompt& prompt, size_t index, size_t prompts,
                       const std::vector<std::vector<scene::SceneObject>>& scenes,
                       const scene::CategorySizes& sizes, const std::vector<char>& counted) {
@@ -115,6 +107,7 @@ RequestedPrompts ReadPromptsAndTypes(const std::vector<std::string>& texts,
       findings->push_back(std::move(finding));
     }
     requested.prompts.push_back(std::move(reading.prompt));
+    requested.referred.push_back(std::move(reading.referred));
   }
   return requested;
 }
@@ -124,6 +117,13 @@ std::vector<scene::Prompt> ReadPrompts(const std::vector<std::string>& texts,
                                        const scene::Vocabulary& vocabulary,
                                        core::Findings* findings) {
   return ReadPromptsAndTypes(texts, file, vocabulary, {}, findings).prompts;
+}
+
+std::vector<std::string> StatementsOf(const scene::Prompt& prompt) {
+  std::vector<std::string> statements;
+  for (const auto& one : prompt.relations) statements.push_back(StatementText(one, prompt));
+  for (const auto& one : prompt.tiers) statements.push_back(StatementText(one, prompt));
+  return statements;
 }
 
 std::vector<std::string> TextsOf(const std::vector<scene::Prompt>& prompts) {

@@ -16,6 +16,7 @@ namespace simwright::workflows {
 struct RequestedPrompts {
   std::vector<scene::Prompt> prompts;
   std::vector<std::string> types;  // the scene type that each names; empty: none
+  std::vector<std::vector<std::string>> referred = {};  // PromptReading::referred of each
 };
 
 // Reads prompts in free text, and the scene types of `types` that they name: "a pantry shelf with
@@ -33,6 +34,9 @@ std::vector<scene::Prompt> ReadPrompts(const std::vector<std::string>& texts,
                                        const std::filesystem::path& file,
                                        const scene::Vocabulary& vocabulary,
                                        core::Findings* findings);
+
+// Returns the statements of a prompt as sentences, in the order of PromptAgreement::holds.
+std::vector<std::string> StatementsOf(const scene::Prompt& prompt);
 
 // Returns the texts that a model reads.
 std::vector<std::string> TextsOf(const std::vector<scene::Prompt>& prompts);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <set>
+#include <tuple>
 
 #include "core/content_hash.h"
 #include "core/elapsed_time.h"
@@ -48,6 +49,29 @@ fs::path SteeringWeights(const SceneSteeringRequest& request, const SceneSource&
   return ShippedSceneWeights(type);
 }
 
+// Merges the findings of many scenes that say the same into one, at the first of these scenes.
+void MergeSameFindings(core::Findings* findings) {
+  core::Findings merged;
+  std::vector<int> more;
+  for (const core::Finding& finding : *findings) {
+    size_t same = 0;
+    while (same < merged.size() &&
+           (merged[same].code != finding.code || merged[same].sentence != finding.sentence)) {
+      ++same;
+    }
+    if (same < merged.size()) {
+      ++more[same];
+      continue;
+    }
+    merged.push_back(finding);
+    more.push_back(0);
+  }
+  for (size_t i = 0; i < merged.size(); ++i) {
+    if (more[i] > 0) merged[i].place += " and " + std::to_string(more[i]) + " more scenes";
+  }
+  *findings = std::move(merged);
+}
+
 // Steers the scenes of one source, round by round.
 class SceneSteering {
  public:
@@ -69,6 +93,7 @@ class SceneSteering {
     for (const SourceScene& one : source_.scenes) {
       scenes_.emplace_back(one, goal_, model_.metadata(), &source_assets_, &report_.findings);
     }
+    MergeSameFindings(&report_.findings);
     reports_.resize(scenes_.size());
   }
 
@@ -79,6 +104,7 @@ class SceneSteering {
     for (int round = 0; round < request_.attempts && !Unfinished().empty(); ++round) {
       const std::vector<std::vector<Proposal>> proposals = Propose(round);
       GatherAssets(staged.staging() / "assets");
+      strict_ = round + 1 < request_.attempts;
       TakeBest(Unfinished(), proposals);
       if (goal_.count < 0 && !goal_.rearrange) break;  // the model's choice
     }
@@ -160,13 +186,16 @@ class SceneSteering {
       const scene::SceneAsset& asset = gathered.At(category);
       asset_set_.Add(category, asset.body, asset.visual);
     }
+    sizes_ = asset_set_.Sizes();
   }
 
   // The physics of a scene's proposals in a round, the least penetrating proposal first.
   struct Trial {
     std::vector<size_t> order;  // of the proposals
     std::vector<scene::ConstrainedScene> placed;
-    std::atomic<size_t> success{SIZE_MAX};  // the first rank at which nothing was dropped
+    std::vector<int> broken;  // statements that do not hold, by rank
+    // The first rank at which nothing was dropped and all statements hold.
+    std::atomic<size_t> success{SIZE_MAX};
   };
 
   // Places the proposals of the `open` scenes and accepts the best of each. Proposals after the
@@ -178,6 +207,7 @@ class SceneSteering {
     for (size_t i = 0; i < open.size(); ++i) {
       trials[i].order = ByPenetration(scenes_[open[i]], all[i]);
       trials[i].placed.resize(all[i].size());
+      trials[i].broken.resize(all[i].size());
       for (size_t rank = 0; rank < all[i].size(); ++rank) jobs.emplace_back(rank, i);
     }
     std::sort(jobs.begin(), jobs.end());
@@ -208,7 +238,7 @@ class SceneSteering {
       const Proposal rest =
           scene.StillMissing(proposals[trial.order[rank]], trial.placed[rank], there);
       if (rest.empty()) continue;
-      const scene::ConstrainedScene placed = scene.Place(rest, asset_set_, options_);
+      const scene::ConstrainedScene placed = scene.Place(rest, asset_set_, options_, strict_);
       if (placed.stable) scene.Accept(placed, rest);
     }
   }
@@ -229,25 +259,28 @@ class SceneSteering {
 
   void TryProposal(const SteeredScene& scene, const Proposal& proposal, size_t rank,
                    Trial* trial) const {
-    scene::ConstrainedScene placed = scene.Place(proposal, asset_set_, options_);
-    const bool succeeded = placed.dropped == 0 && placed.stable;
+    scene::ConstrainedScene placed = scene.Place(proposal, asset_set_, options_, strict_);
+    trial->broken[rank] = scene.BrokenCount(placed, proposal, sizes_);
+    const bool succeeded = placed.dropped == 0 && placed.stable && trial->broken[rank] == 0;
     trial->placed[rank] = std::move(placed);
     size_t first = trial->success;
     while (succeeded && rank < first && !trial->success.compare_exchange_weak(first, rank)) {
     }
   }
 
-  // Returns the rank of the first success, else of the stable scene with the fewest objects
-  // dropped.
+  // Returns the rank of the first success, else of the stable scene with the fewest broken
+  // statements, and of these with the fewest objects dropped.
   size_t BestRank(const Trial& trial) const {
     if (trial.success != SIZE_MAX) return trial.success;
-    const auto cost = [&](const scene::ConstrainedScene& placed) {
-      return placed.dropped + (placed.stable ? 0 : vocabulary().entries);
+    const auto cost = [&](size_t rank) {
+      const scene::ConstrainedScene& placed = trial.placed[rank];
+      return std::tuple(!placed.stable, trial.broken[rank], placed.dropped);
     };
-    const auto best =
-        std::min_element(trial.placed.begin(), trial.placed.end(),
-                         [&](const auto& a, const auto& b) { return cost(a) < cost(b); });
-    return static_cast<size_t>(best - trial.placed.begin());
+    size_t best = 0;
+    for (size_t rank = 1; rank < trial.placed.size(); ++rank) {
+      if (cost(rank) < cost(best)) best = rank;
+    }
+    return best;
   }
 
   // Returns objects that found no new pose to their old one, where it is still free.
@@ -287,10 +320,12 @@ class SceneSteering {
   SteeringGoal goal_;
   SourceAssets source_assets_;
   scene::ConstrainedOptions options_;
+  bool strict_ = false;  // objects of relations that do not hold are proposed again
   std::vector<SteeredScene> scenes_;
   std::vector<SteeredSceneReport> reports_;
   std::set<std::string> wanted_;  // categories of all objects so far
   scene::AssetSet asset_set_;
+  scene::CategorySizes sizes_;  // of asset_set_
 };
 
 void SceneSteering::FinishReports() {
@@ -309,6 +344,8 @@ void SceneSteering::FinishReports() {
     report.penetration = scene.penetration();
     report.drift = scene.drift();
     report.unstable = scene.unstable();
+    report.statements = static_cast<int>(goal_.prompt.relations.size() + goal_.prompt.tiers.size());
+    report.broken = scene.Broken(sizes_);
   }
   core::Findings findings = source_assets_.UnknownFindings();
   report_.findings.insert(report_.findings.begin(), findings.begin(), findings.end());

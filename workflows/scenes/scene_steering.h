@@ -40,6 +40,8 @@ struct SteeredSceneReport {
   double drift = 0.0;              // m, the largest of a new or moved object in the check
   bool stable = false;
   std::vector<std::string> unstable;  // kept objects that move by themselves
+  int statements = 0;                 // relations and tiers that the prompt asks for
+  std::vector<std::string> broken;    // those that do not hold
   std::vector<std::string> returned;  // objects without a new pose, back at their old one
   std::vector<std::string> lost;      // objects of a rearrangement without any place
 };
@@ -65,8 +67,8 @@ struct SceneSteeringReport {
 // output.
 SceneSteeringReport SteerScenes(const SceneSteeringRequest& request, core::Progress* progress);
 
-// Returns warnings for objects that found no place, kept objects that move by themselves, and
-// scenes that are not stable.
+// Returns warnings for objects that found no place, kept objects that move by themselves, relations
+// that do not hold, and scenes that are not stable.
 core::Findings SteeringFindings(const std::vector<SteeredSceneReport>& scenes, bool rearrange);
 
 // Format the report as text for people and as JSON.

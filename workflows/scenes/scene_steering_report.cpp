@@ -7,10 +7,14 @@
 namespace simwright::workflows {
 namespace {
 
+std::string Joined(const std::vector<std::string>& parts, const std::string& separator) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : separator) + part;
+  return text;
+}
+
 std::string CommaList(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
+  return Joined(names, ", ");
 }
 
 void Add(const char* code, const SteeredSceneReport& scene, const std::string& sentence,
@@ -40,6 +44,10 @@ core::Findings SteeringFindings(const std::vector<SteeredSceneReport>& scenes, b
               " objects found a place",
           scene.asked - scene.done, "give more --attempts or --candidates", &findings);
     }
+    if (!scene.broken.empty()) {
+      Add("relations-broken", scene, "it does not hold that " + Joined(scene.broken, "; that "),
+          count(scene.broken), "give more --candidates", &findings);
+    }
     if (!scene.returned.empty()) {
       Add("objects-returned", scene,
           "these objects found no new pose and are back at their old one: " +
@@ -62,7 +70,7 @@ core::Findings SteeringFindings(const std::vector<SteeredSceneReport>& scenes, b
 std::string SteeringTable(const SceneSteeringReport& report) {
   const auto count = static_cast<double>(report.scenes.size());
   SteeredSceneReport worst;
-  int stable = 0;
+  int stable = 0, statements = 0, held = 0;
   for (const SteeredSceneReport& scene : report.scenes) {
     worst.kept += scene.kept;
     worst.asked += scene.asked;
@@ -71,6 +79,8 @@ std::string SteeringTable(const SceneSteeringReport& report) {
     worst.kept_displacement = std::max(worst.kept_displacement, scene.kept_displacement);
     worst.penetration = std::max(worst.penetration, scene.penetration);
     stable += scene.stable;
+    statements += scene.statements;
+    held += scene.statements - static_cast<int>(scene.broken.size());
   }
   char text[640];
   std::snprintf(
@@ -83,7 +93,13 @@ std::string SteeringTable(const SceneSteeringReport& report) {
       report.rearrange ? "moved" : "added", 1e3 * worst.kept_displacement, 1e3 * worst.penetration,
       stable, count, worst.attempts, report.seconds, report.model_seconds, report.asset_seconds,
       report.sampling_seconds, report.physics_seconds, report.picture_seconds);
-  return text;
+  std::string table = text;
+  if (statements > 0) {
+    std::snprintf(text, sizeof text, "%d of %d relations that the prompt asks for hold\n", held,
+                  statements);
+    table += text;
+  }
+  return table;
 }
 
 std::string SteeringJson(const SceneSteeringReport& report) {
@@ -103,6 +119,10 @@ std::string SteeringJson(const SceneSteeringReport& report) {
     one["drift_mm"] = 1e3 * scene.drift;
     one["stable"] = scene.stable;
     one["unstable_kept"] = scene.unstable;
+    if (scene.statements > 0) {
+      one["relations"] = scene.statements;
+      one["relations_broken"] = scene.broken;
+    }
     if (report.rearrange) {
       one["returned"] = scene.returned;
       one["lost"] = scene.lost;

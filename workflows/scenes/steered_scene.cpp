@@ -8,7 +8,10 @@
 
 #include "core/error.h"
 #include "scene/dataset/tokens.h"
+#include "scene/feasibility/asked_relations.h"
 #include "scene/prompt/object_names.h"
+#include "scene/prompt/prompt_agreement.h"
+#include "workflows/scenes/scene_prompts.h"
 
 namespace simwright::workflows {
 namespace {
@@ -36,25 +39,72 @@ std::string FaultOfPose(const Eigen::Isometry3d& pose, const scene::PoseRange& r
   return text;
 }
 
-// Drops the objects of a proposal that physics has moved too far sideways, such as through the side
-// of a shelf. `there`: the number of objects before them.
-void DropFarMoved(const Proposal& proposal, size_t there, scene::ConstrainedScene* placed) {
-  constexpr double kMostSideways = 0.15;  // m, more than a steamer's radius
+// Drops the objects with these flags.
+void DropObjects(const std::vector<char>& gone, scene::ConstrainedScene* placed) {
   size_t to = 0;
-  for (size_t i = 0; i < placed->objects.size(); ++i) {
-    const auto index = static_cast<size_t>(placed->indices[i]);
-    if (index >= there) {
-      const scene::SceneObject& proposed = proposal[index - there].object;
-      const Eigen::Vector3d moved = placed->objects[i].world_from_object.translation() -
-                                    proposed.world_from_object.translation();
-      if (moved.head<2>().norm() > kMostSideways) continue;
-    }
+  for (size_t i = 0; i < gone.size(); ++i) {
+    if (gone[i]) continue;
     placed->indices[to] = placed->indices[i];
     placed->objects[to++] = placed->objects[i];
   }
-  placed->dropped += static_cast<int>(placed->objects.size() - to);
+  placed->dropped += static_cast<int>(gone.size() - to);
   placed->indices.resize(to);
   placed->objects.resize(to);
+}
+
+// Drops the objects of a proposal that physics has moved too far sideways, such as through the side
+// of a shelf. `objects`: those before physics, of which the first `there` are not of the proposal.
+void DropFarMoved(const std::vector<scene::SceneObject>& objects, size_t there,
+                  scene::ConstrainedScene* placed) {
+  constexpr double kMostSideways = 0.15;  // m, more than a steamer's radius
+  std::vector<char> gone(placed->objects.size(), 0);
+  for (size_t i = 0; i < gone.size(); ++i) {
+    const auto index = static_cast<size_t>(placed->indices[i]);
+    if (index < there) continue;
+    const Eigen::Vector3d moved = placed->objects[i].world_from_object.translation() -
+                                  objects[index].world_from_object.translation();
+    gone[i] = moved.head<2>().norm() > kMostSideways;
+  }
+  DropObjects(gone, placed);
+}
+
+// Drops the subject of each relation and tier that does not hold; the object, if the subject is not
+// of the proposal. `named`: by index before physics.
+void DropBroken(const scene::Prompt& prompt, const std::vector<char>& named, size_t there,
+                const scene::CategorySizes& sizes, scene::ConstrainedScene* placed) {
+  std::vector<char> left, gone(placed->objects.size(), 0);
+  std::vector<scene::SceneObject> objects = placed->objects;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    const auto index = static_cast<size_t>(placed->indices[i]);
+    left.push_back(named[index]);
+    objects[i].welded = objects[i].welded || index < there;
+  }
+  const std::vector<Eigen::Vector3d> still(objects.size(), Eigen::Vector3d::Zero());
+  for (const scene::KeptRelation& one : AskedRelations(prompt, objects, sizes, left)) {
+    if (HoldsAfter(one, still)) continue;
+    const auto subject = static_cast<size_t>(one.subject);
+    gone[objects[subject].welded ? static_cast<size_t>(one.object) : subject] = 1;
+  }
+  DropObjects(gone, placed);
+}
+
+// Returns the statements of a prompt that do not hold among the named objects of a scene.
+std::vector<std::string> BrokenStatements(const scene::Prompt& prompt,
+                                          const std::vector<scene::SceneObject>& objects,
+                                          const std::vector<char>& named,
+                                          const scene::CategorySizes& sizes) {
+  std::vector<scene::SceneObject> meant;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    if (named[i] || objects[i].welded) meant.push_back(objects[i]);
+  }
+  const scene::PromptAgreement agreement = AgreementWith(prompt, meant, sizes);
+  std::vector<std::string> broken = StatementsOf(prompt);
+  size_t to = 0;
+  for (size_t i = 0; i < broken.size(); ++i) {
+    if (!agreement.holds[i]) broken[to++] = broken[i];
+  }
+  broken.resize(to);
+  return broken;
 }
 
 std::string ListOfNames(const std::vector<std::string>& names) {
@@ -72,6 +122,7 @@ SteeredScene::SteeredScene(const SourceScene& source, const SteeringGoal& goal,
       metadata_(metadata),
       rearrange_(goal.rearrange),
       names_(goal.names),
+      prompt_(goal.prompt),
       count_(goal.count) {
   const int entries = metadata.vocabulary.entries;
   if (source.objects.size() > static_cast<size_t>(entries)) {
@@ -94,6 +145,7 @@ SteeredScene::SteeredScene(const SourceScene& source, const SteeringGoal& goal,
     before_.push_back(object.object);
   }
   CheckGoal(goal);
+  AddMissingReferred(goal, findings);
   LeaveOutOfRange(findings);
   const int seen = static_cast<int>(Seen().size());
   if (seen == 0) {
@@ -123,6 +175,26 @@ void SteeredScene::CheckGoal(const SteeringGoal& goal) const {
   if (rearrange_ && Waiting().empty()) {
     throw core::Error("all objects are kept: there is nothing to rearrange", name_);
   }
+}
+
+// Adds the objects that the prompt refers to and the scene lacks to those to add. Throws
+// core::Error if nothing is to add.
+void SteeredScene::AddMissingReferred(const SteeringGoal& goal, core::Findings* findings) {
+  for (const scene::NamedCount& one : goal.referred) {
+    const auto there = std::count_if(objects_.begin(), objects_.end(), [&](const auto& object) {
+      return !object.object.welded && scene::NameOfCategory(object.object.category) == one.name;
+    });
+    const int missing = one.count - static_cast<int>(there);
+    if (missing <= 0) continue;
+    names_.push_back({one.name, missing});
+    count_ += missing;
+    findings->push_back({"reference-added", core::Severity::kInfo, name_,
+                         "the scene lacks what the prompt refers to: " +
+                             scene::CountedName(missing, one.name) + " is added"});
+  }
+  if (count_ != 0 || goal.referred.empty()) return;
+  throw core::Error("the scene has all objects that the prompt names", name_,
+                    "say what to add, as in \"another " + goal.referred.front().name + "\"");
 }
 
 void SteeredScene::LeaveOutOfRange(core::Findings* findings) {
@@ -204,8 +276,19 @@ std::string SteeredScene::PromptText() const {
   }
   for (const std::string& name : NamesToAdd()) ++counts[name];
   scene::Prompt prompt;
-  prompt.kind = scene::PromptKind::kNames;
   for (const auto& [name, count] : counts) prompt.names.push_back({name, count});
+  // Ordinals count the objects of the goal, not those of the scene: only statements without them
+  // mean the same in the model's prompt.
+  for (const scene::RelationStatement& one : prompt_.relations) {
+    const bool unique =
+        prompt.CountOf(one.subject.name) == 1 && prompt.CountOf(one.object.name) == 1;
+    if (unique) prompt.relations.push_back(one);
+  }
+  for (const scene::TierStatement& one : prompt_.tiers) {
+    if (prompt.CountOf(one.subject.name) == 1) prompt.tiers.push_back(one);
+  }
+  const bool states = !prompt.relations.empty() || !prompt.tiers.empty();
+  prompt.kind = states ? scene::PromptKind::kRelations : scene::PromptKind::kNames;
   return prompt.Text();
 }
 
@@ -302,15 +385,57 @@ Proposal SteeredScene::StillMissing(const Proposal& proposal, const scene::Const
 
 scene::ConstrainedScene SteeredScene::Place(const Proposal& proposal,
                                             const scene::AssetSet& asset_set,
-                                            const scene::ConstrainedOptions& options) const {
+                                            const scene::ConstrainedOptions& options,
+                                            bool strict) const {
   std::vector<scene::SceneObject> objects = After();
-  std::vector<char> kept(objects.size(), 1);
+  const size_t there = objects.size();
+  std::vector<char> kept(there, 1);
   for (const ProposedObject& one : proposal) objects.push_back(one.object);
   kept.resize(objects.size(), 0);
-  scene::ConstrainedScene placed = PlaceAmong(objects, kept, asset_set, options);
-  DropFarMoved(proposal, objects.size() - proposal.size(), &placed);
-  CheckFree(kept, asset_set, options, &placed);
+  scene::ConstrainedOptions asked = options;
+  if (HasStatements()) {
+    asked.feasibility.prompt = prompt_;
+    asked.feasibility.named = Named(proposal.size());
+    std::vector<scene::SceneObject> held = objects;
+    for (size_t i = 0; i < there; ++i) held[i].welded = true;
+    EstablishRelations(prompt_, asset_set.Sizes(), asked.feasibility.named, &held);
+    std::copy(held.begin() + static_cast<std::ptrdiff_t>(there), held.end(),
+              objects.begin() + static_cast<std::ptrdiff_t>(there));
+  }
+  scene::ConstrainedScene placed = PlaceAmong(objects, kept, asset_set, asked);
+  DropFarMoved(objects, there, &placed);
+  if (strict && HasStatements()) {
+    DropBroken(prompt_, asked.feasibility.named, there, asset_set.Sizes(), &placed);
+  }
+  CheckFree(kept, asset_set, asked, &placed);
   return placed;
+}
+
+std::vector<char> SteeredScene::Named(size_t added) const {
+  std::vector<char> named;
+  for (const size_t i : Placed()) {
+    const SteeredObject& object = objects_[i];
+    const std::string name = scene::NameOfCategory(object.object.category);
+    const bool to_add = std::any_of(names_.begin(), names_.end(),
+                                    [&](const auto& one) { return one.name == name; });
+    named.push_back(!object.object.welded && (object.added || !to_add));
+  }
+  named.resize(named.size() + added, 1);
+  return named;
+}
+
+std::vector<std::string> SteeredScene::Broken(const scene::CategorySizes& sizes) const {
+  if (!HasStatements()) return {};
+  return BrokenStatements(prompt_, After(), Named(0), sizes);
+}
+
+int SteeredScene::BrokenCount(const scene::ConstrainedScene& placed, const Proposal& proposal,
+                              const scene::CategorySizes& sizes) const {
+  if (!HasStatements()) return 0;
+  const std::vector<char> all = Named(proposal.size());
+  std::vector<char> named;
+  for (const int index : placed.indices) named.push_back(all[static_cast<size_t>(index)]);
+  return static_cast<int>(BrokenStatements(prompt_, placed.objects, named, sizes).size());
 }
 
 void SteeredScene::Accept(const scene::ConstrainedScene& placed, const Proposal& proposal) {

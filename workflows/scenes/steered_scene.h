@@ -65,13 +65,21 @@ class SteeredScene {
   Proposal StillMissing(const Proposal& proposal, const scene::ConstrainedScene& placed,
                         size_t there) const;
 
-  // Places a proposal among the placed objects (PlaceAmong), drops what has moved far sideways,
-  // and checks the result (CheckFree).
+  // Moves a proposal to where the relations of the goal hold, places it among the placed objects
+  // (PlaceAmong), drops what has moved far sideways and, if `strict`, one object of each relation
+  // that does not hold, and checks the result (CheckFree).
   scene::ConstrainedScene Place(const Proposal& proposal, const scene::AssetSet& asset_set,
-                                const scene::ConstrainedOptions& options) const;
+                                const scene::ConstrainedOptions& options, bool strict) const;
 
   // Takes over the objects of `placed`, the result of Place for this proposal, and its figures.
   void Accept(const scene::ConstrainedScene& placed, const Proposal& proposal);
+
+  // Returns the statements of the goal that do not hold for the placed objects, and how many do not
+  // for `placed`, the result of Place for this proposal. Statements are about the added objects and
+  // those that the goal refers to.
+  std::vector<std::string> Broken(const scene::CategorySizes& sizes) const;
+  int BrokenCount(const scene::ConstrainedScene& placed, const Proposal& proposal,
+                  const scene::CategorySizes& sizes) const;
 
   // The figures of the last accepted check.
   bool stable() const { return stable_; }
@@ -83,6 +91,11 @@ class SteeredScene {
  private:
   void CheckGoal(const SteeringGoal& goal) const;
   void LeaveOutOfRange(core::Findings* findings);
+  void AddMissingReferred(const SteeringGoal& goal, core::Findings* findings);
+  bool HasStatements() const { return !prompt_.relations.empty() || !prompt_.tiers.empty(); }
+  // Returns the flags of the placed objects, and of `added` ones behind them, that the statements
+  // are about.
+  std::vector<char> Named(size_t added) const;
   std::vector<size_t> Seen() const;     // the objects with tokens, in the tokens' order
   std::vector<size_t> Placed() const;   // as in After
   std::vector<size_t> Waiting() const;  // rearranged objects without a new pose
@@ -96,6 +109,7 @@ class SteeredScene {
   std::vector<scene::SceneObject> before_;
   bool rearrange_;
   std::vector<scene::NamedCount> names_;  // to add
+  scene::Prompt prompt_;                  // its statements are to hold
   int count_, asked_ = 0, added_ = 0;
   bool stable_ = false;
   double kept_displacement_ = 0.0, drift_ = 0.0, penetration_ = 0.0;
