@@ -43,8 +43,12 @@ class ScenePosttrainCommand : public testing::Test {
            "--quiet " +
            arguments + " -o " + At(output);
   }
-  static Outcome PostTrain(const std::string& arguments, const std::string& output) {
-    return RunProgram(Command("--data " + Data() + " --count 8 --settled 2 " + arguments, output));
+  // Physics and pictures of the samples take most of the time: one run has them.
+  static Outcome PostTrain(const std::string& arguments, const std::string& output,
+                           int settled = 0) {
+    return RunProgram(Command("--data " + Data() + " --count 8 --settled " +
+                                  std::to_string(settled) + " " + arguments,
+                              output));
   }
 
   static inline core::TemporaryFolder* folder_ = nullptr;
@@ -57,7 +61,7 @@ int LineCount(const fs::path& file) {
 }
 
 void ScenePosttrainCommand::WritesWhatItDid() {
-  const Outcome made = PostTrain("--rounds 4 --more-slots 3 --json", "whole");
+  const Outcome made = PostTrain("--rounds 4 --more-slots 3 --json", "whole", 2);
   ASSERT_EQ(made.code, 0) << made.text;
   const fs::path folder = At("whole");
   const json report = json::parse(core::ReadFile(folder / "report.json"));
