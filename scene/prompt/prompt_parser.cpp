@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "scene/prompt/object_names.h"
+#include "scene/prompt/mention_resolution.h"
 #include "scene/prompt/prompt.h"
 
 namespace simwright::scene {
@@ -11,21 +11,7 @@ namespace {
 
 using Kind = PromptItemKind;
 
-constexpr int kBarePlural = 3;           // objects of "apples"
-constexpr size_t kMostMentioned = 20;    // objects of one mention that statements are made about
 constexpr size_t kMostStatements = 200;  // per prompt
-constexpr size_t kMostNotes = 50;
-
-// The words before a name: how many, and whether it is an object that was mentioned before.
-struct Quantity {
-  std::optional<int> number;
-  std::optional<PromptItem> vague;
-  int ordinal = 0;
-  bool article = false, another = false, definite = false, one_of = false;
-  std::string words;
-
-  bool Any() const { return number || vague || ordinal > 0 || article || definite || one_of; }
-};
 
 // A relation whose object has not been read yet.
 struct OpenRelation {
@@ -61,16 +47,14 @@ class PromptParser {
   void ReadUnknown();
 
   void BeginSentence();
-  MentionedName& StateOf(int name);
-  Mention Resolve(const PromptItem& item);
-  Mention Add(MentionedName* state, int count, const std::string& words);
-  Mention FirstOf(int name, int count) const;
   Mention SubjectOfStatement() const;
   void CloseRelation(const Mention& object);
   void AddRelations(const Mention& subject, const PromptItem& relation, const Mention& object);
   void AddTiers(const Mention& subject, ShelfTier tier);
   void NoteFurniture(const PromptItem& item);
-  void Note(const char* code, core::Severity severity, const std::string& sentence);
+  void Note(const char* code, core::Severity severity, const std::string& sentence) {
+    AddPromptNote(code, severity, sentence, &parsed_.findings);
+  }
   bool NextIs(Kind kind) const { return at_ + 1 < items_.size() && items_[at_ + 1].kind == kind; }
   void Drop() { quantity_ = {}; }
 
@@ -78,7 +62,7 @@ class PromptParser {
   const NameLookup& lookup_;
   size_t at_ = 0;
   ParsedPrompt parsed_;
-  Quantity quantity_;
+  MentionQuantity quantity_;
   bool none_ = false, without_ = false, not_ = false;
   std::string none_words_;
   bool statement_ = false;        // this sentence says where objects are
@@ -93,13 +77,6 @@ class PromptParser {
   std::optional<PromptItem> closed_relation_;
   std::optional<ShelfTier> open_tier_;  // "on the top shelf there are ..."
 };
-
-void PromptParser::Note(const char* code, core::Severity severity, const std::string& sentence) {
-  const auto same = [&](const core::Finding& one) { return one.sentence == sentence; };
-  core::Findings& findings = parsed_.findings;
-  if (findings.size() >= kMostNotes || std::any_of(findings.begin(), findings.end(), same)) return;
-  findings.push_back({code, severity, "prompt", sentence});
-}
 
 void PromptParser::BeginSentence() {
   quantity_ = {};
@@ -203,85 +180,6 @@ void PromptParser::ReadJoint(const PromptItem& item) {
   }
 }
 
-MentionedName& PromptParser::StateOf(int name) {
-  for (MentionedName& state : parsed_.names) {
-    if (state.name == name) return state;
-  }
-  parsed_.names.push_back({});
-  parsed_.names.back().name = name;
-  return parsed_.names.back();
-}
-
-Mention PromptParser::FirstOf(int name, int count) const {
-  Mention mention;
-  for (int i = 1; i <= count && mention.size() < kMostMentioned; ++i) mention.push_back({name, i});
-  return mention;
-}
-
-// Adds objects to those asked for and returns them.
-Mention PromptParser::Add(MentionedName* state, int count, const std::string& words) {
-  const std::string& name = lookup_.names()[static_cast<size_t>(state->name)];
-  if (state->asked > kMostPromptObjects - count) {
-    throw core::Error(
-        "more than " + std::to_string(kMostPromptObjects) + " " + PluralOf(name) + " are asked for",
-        "prompt", "ask for fewer");
-  }
-  if (state->asked > 0) {
-    Note("prompt-repeated-name", core::Severity::kInfo,
-         PluralOf(name) + " are asked for more than once; the numbers are added");
-    state->asked_words += "\" and \"" + words;
-  } else {
-    state->asked_words = words;
-  }
-  Mention mention;
-  for (int i = 1; i <= count && mention.size() < kMostMentioned; ++i) {
-    mention.push_back({state->name, state->asked + i});
-  }
-  state->asked += count;
-  return mention;
-}
-
-// Returns the objects that a name with its quantity means.
-Mention PromptParser::Resolve(const PromptItem& item) {
-  MentionedName& state = StateOf(item.match.name);
-  const std::string words = (quantity_.words.empty() ? "" : quantity_.words + " ") + item.words;
-  const int known = std::max(state.asked, state.implied);
-  const bool plural = item.match.plural;
-  const auto imply = [&](int count) {
-    if (count > state.implied) state.implied_words = words;
-    state.implied = std::max(state.implied, count);
-  };
-  if (quantity_.one_of) {
-    imply(2);
-    return {{state.name, 0}};
-  }
-  if (quantity_.ordinal > 0 && !quantity_.number) {
-    if (quantity_.ordinal > kMostPromptObjects) throw core::Error("an ordinal is too large", words);
-    imply(quantity_.ordinal);
-    state.numbered = true;
-    return {{state.name, quantity_.ordinal}};
-  }
-  if (quantity_.number && !(quantity_.definite && known >= *quantity_.number)) {
-    return Add(&state, *quantity_.number, words);
-  }
-  if (quantity_.number) return FirstOf(state.name, *quantity_.number);
-  const bool before = quantity_.definite || (statement_ && known > 0 && !quantity_.another);
-  if (before && !quantity_.vague) {
-    imply(plural ? std::max(2, known) : 1);
-    const int count = std::max(state.asked, state.implied);
-    if (plural) return FirstOf(state.name, count);
-    return {{state.name, count == 1 ? 1 : 0}};
-  }
-  int count = 1;
-  if (plural) count = quantity_.vague ? quantity_.vague->number : kBarePlural;
-  if (count > 1) {
-    Note("prompt-number-chosen", core::Severity::kInfo,
-         "\"" + words + "\" is read as " +
-             CountedName(count, lookup_.names()[static_cast<size_t>(state.name)]));
-  }
-  return Add(&state, count, words);
-}
-
 void PromptParser::ReadName(const PromptItem& item) {
   const std::string& name = lookup_.names()[static_cast<size_t>(item.match.name)];
   // "apple pie": the second word is the object.
@@ -295,7 +193,7 @@ void PromptParser::ReadName(const PromptItem& item) {
   }
   ++at_;
   if (none_ || (not_ && !open_)) {
-    MentionedName& state = StateOf(item.match.name);
+    MentionedName& state = MentionedNameOf(item.match.name, &parsed_);
     state.none = true;
     state.none_words = (none_ ? none_words_ : "not") + " " + item.words;
     Drop();
@@ -303,7 +201,7 @@ void PromptParser::ReadName(const PromptItem& item) {
     return;
   }
   const bool definite = quantity_.definite || quantity_.ordinal > 0;
-  Mention mention = Resolve(item);
+  Mention mention = MentionResolver(lookup_, statement_, &parsed_).Resolve(quantity_, item);
   Drop();
   unknown_subject_ = false;
   if (open_ && !open_->inverted) return CloseRelation(mention);
