@@ -233,7 +233,8 @@ void Run(const Arguments& arguments) {
   const scene::Vocabulary& vocabulary = dataset.vocabulary();
   const int count = dataset.SceneCount();
   const std::vector<Objects> data = DecodeScenes(dataset.Read(0, count), vocabulary);
-  const scene::AssetSet asset_set = scene::ReadAssetSet(arguments.data / "assets");
+  const scene::AssetSet asset_set = scene::ReadAssetSet(
+      scene::FoldersForCategories(arguments.data / "assets", vocabulary.categories));
   const scene::SceneModel model =
       scene::SceneModel::Load(arguments.models / "scenes" / (vocabulary.type + ".pt"));
   const std::vector<Halved> halved = HalvedScenes(data, arguments.share, arguments.repeats);
