@@ -185,6 +185,9 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
       "    --assets out/dimsum/assets\n"
       "  simwright scene sample --type pantry_shelf --prompt \"five apples next to a bowl\" -o "
       "out/apples\n"
+      "  simwright scene sample --prompt \"a pantry shelf with two apples and a lamp\" -o "
+      "out/mixed\n"
+      "A prompt without weights and without --type is for the shipped model of all types.\n"
       "Without --raw, interpenetrations are resolved, objects are lowered onto their support and "
       "settled;\n"
       "objects that fall are dropped.");

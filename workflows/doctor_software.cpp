@@ -139,6 +139,7 @@ core::Finding ExamineWeights() {
   }
   const int scenes = CountWeights(models / "scenes"), skills = CountWeights(models / "skills");
   if (scenes == 0) miss("scenes/*.pt");
+  if (CountWeights(models / "scenes" / "text") == 0) miss("scenes/text/*.pt");
   if (skills == 0) miss("skills/*.pt");
   if (!missing.empty()) {
     return Bad("weights", core::Severity::kWarning,

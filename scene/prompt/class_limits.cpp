@@ -5,8 +5,33 @@
 #include <set>
 
 #include "scene/prompt/object_names.h"
+#include "scene/scene_types/scene_types.h"
 
 namespace simwright::scene {
+
+namespace {
+
+// Adds the limits of furniture, if the scene type is known.
+void LimitFurniture(const Vocabulary& vocabulary, std::vector<ClassLimit>* limits) {
+  const std::vector<SceneType>& types = SceneTypes();
+  const auto type = std::find_if(types.begin(), types.end(),
+                                 [&](const auto& one) { return one.name == vocabulary.type; });
+  if (type == types.end()) return;
+  ClassLimit foreign;
+  for (size_t i = 0; i < vocabulary.categories.size(); ++i) {
+    const std::string& category = vocabulary.categories[i];
+    const auto index = static_cast<int>(i);
+    if (!vocabulary.welded[i]) continue;
+    if (category == type->main_furniture) {
+      limits->push_back({{index}, 1, 1});
+    } else if (!std::binary_search(type->categories.begin(), type->categories.end(), category)) {
+      foreign.classes.push_back(index);
+    }
+  }
+  if (!foreign.classes.empty()) limits->push_back(foreign);
+}
+
+}  // namespace
 
 std::vector<ClassLimit> ClassLimitsOf(const Prompt& prompt, const Vocabulary& vocabulary) {
   if (prompt.kind == PromptKind::kEmpty) return {};
@@ -45,6 +70,7 @@ std::vector<ClassLimit> ClassLimitsOf(const Prompt& prompt, const Vocabulary& vo
     room -= one.least;
     one.most = std::max(one.least, std::min(one.most, one.least + room));
   }
+  LimitFurniture(vocabulary, &limits);
   return limits;
 }
 

@@ -19,6 +19,8 @@ struct ClassLimit {
 // Returns the limits that a prompt sets to the free classes of a vocabulary: as many of each name
 // as it says; of all other free classes together none without "and others", at least one with it,
 // and as many as a total count leaves; no more than the entries, one of which stays for furniture.
+// For a known scene type (SceneTypes), exactly one of its main furniture and none of the furniture
+// of other types: a network leaves out the table of a prompt with few objects, as unlike its data.
 // Empty for the empty prompt. No class has two limits.
 std::vector<ClassLimit> ClassLimitsOf(const Prompt& prompt, const Vocabulary& vocabulary);
 

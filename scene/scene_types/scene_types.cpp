@@ -10,22 +10,27 @@
 namespace simwright::scene {
 namespace {
 
-SceneType TypeOf(const std::string& what, Grammar (*make)(const CategorySizes&)) {
+SceneType TypeOf(const std::string& what, const std::string& main_furniture,
+                 Grammar (*make)(const CategorySizes&)) {
   const Grammar grammar = make(DefaultCategorySizes());
-  return {grammar.name(), what, grammar.MaxEntries(), make, grammar.Categories()};
+  return {grammar.name(), what, grammar.MaxEntries(), make, grammar.Categories(), main_furniture};
 }
 
 }  // namespace
 
 const std::vector<SceneType>& SceneTypes() {
   static const std::vector<SceneType> types = {
-      TypeOf("a breakfast table for six, with much that is shared", &BreakfastTableHigh),
-      TypeOf("a breakfast table for two, with a crock of utensils", &BreakfastTableLow),
-      TypeOf("a round table with dim sum for four, steamers in stacks", &DimsumTable),
-      TypeOf("a living room's shelf: games in stacks, drinks, a lamp, toys", &LivingRoomShelf),
-      TypeOf("a pantry's shelf full of cans, bottles and fruit", &PantryShelf),
-      TypeOf("a restaurant: tables with much dim sum, chairs, shelves", &RestaurantHigh),
-      TypeOf("a restaurant: tables with little dim sum, chairs, shelves", &RestaurantLow),
+      TypeOf("a breakfast table for six, with much that is shared", "table_breakfast",
+             &BreakfastTableHigh),
+      TypeOf("a breakfast table for two, with a crock of utensils", "table_breakfast",
+             &BreakfastTableLow),
+      TypeOf("a round table with dim sum for four, steamers in stacks", "table_round",
+             &DimsumTable),
+      TypeOf("a living room's shelf: games in stacks, drinks, a lamp, toys", "shelf_living_room",
+             &LivingRoomShelf),
+      TypeOf("a pantry's shelf full of cans, bottles and fruit", "shelf_pantry", &PantryShelf),
+      TypeOf("a restaurant: tables with much dim sum, chairs, shelves", "floor", &RestaurantHigh),
+      TypeOf("a restaurant: tables with little dim sum, chairs, shelves", "floor", &RestaurantLow),
   };
   return types;
 }

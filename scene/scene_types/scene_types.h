@@ -15,6 +15,7 @@ struct SceneType {
   int entries = 0;   // most objects of a scene, furniture included
   Grammar (*make)(const CategorySizes&) = nullptr;
   std::vector<std::string> categories;  // all categories, furniture included; sorted
+  std::string main_furniture;           // the category of which each scene has exactly one object
 };
 
 // Returns all scene types, sorted by name.

@@ -34,6 +34,16 @@ TEST(ClassLimits, LeaveAnEntryForFurniture) {
             (std::vector<ClassLimit>{{{0}, 15, 15}, {{1, 2}, 4, 4}, {{3}, 0, 0}}));
 }
 
+// A union vocabulary with the table of another type.
+TEST(ClassLimits, OneMainFurnitureAndNoneOfOtherTypes) {
+  Vocabulary vocabulary{
+      "pantry_shelf", 20, {"apple", "shelf_pantry", "table_round"}, {false, true, true}};
+  Prompt prompt{PromptKind::kNames, {}, {{"apple", 2}}, false, {}, {}};
+  EXPECT_EQ(ClassLimitsOf(prompt, vocabulary),
+            (std::vector<ClassLimit>{{{0}, 2, 2}, {{1}, 1, 1}, {{2}, 0, 0}}));
+  EXPECT_TRUE(ClassLimitsOf({}, vocabulary).empty());
+}
+
 TEST(ClassLimits, OfNoneAndOfAllNames) {
   EXPECT_TRUE(ClassLimitsOf({}, LimitWords()).empty());
   Prompt prompt{PromptKind::kNames, {}, {{"apple", 0}, {"can", 1}, {"cup", 2}}, true, {}, {}};

@@ -37,6 +37,12 @@ TEST(SceneTypes, DrawNothingThatIsNotAmongTheirSlots) {
       const SceneSample sample = SampleGrammar(grammar, rng);
       EXPECT_LE(sample.objects.size(), static_cast<size_t>(type.entries)) << type.name;
       for (const SceneObject& object : sample.objects) seen.insert(object.category);
+      EXPECT_EQ(std::count_if(sample.objects.begin(), sample.objects.end(),
+                              [&](const SceneObject& object) {
+                                return object.category == type.main_furniture && object.welded;
+                              }),
+                1)
+          << type.name;
     }
     const std::set<std::string> known(type.categories.begin(), type.categories.end());
     EXPECT_TRUE(std::includes(known.begin(), known.end(), seen.begin(), seen.end())) << type.name;

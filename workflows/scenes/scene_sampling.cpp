@@ -1,5 +1,6 @@
 #include "workflows/scenes/scene_sampling.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -53,11 +54,23 @@ Sampled AsSampled(std::vector<scene::SceneObject> objects) {
   return sampled;
 }
 
+// Returns the number of objects that a prompt asks for; -1 if it leaves that open.
+int AskedObjects(const scene::Prompt& prompt) {
+  if (prompt.count) return *prompt.count;
+  if (prompt.kind == scene::PromptKind::kEmpty || prompt.and_others) return -1;
+  int asked = 0;
+  for (const scene::NamedCount& one : prompt.names) asked += one.count;
+  return asked;
+}
+
 Sampled Settled(const std::vector<scene::SceneObject>& objects, const scene::AssetSet& asset_set,
                 const scene::Prompt& prompt) {
   scene::FeasibilityOptions options;
   options.prompt = prompt;
   options.lowering = kSampleLowering;
+  if (const int asked = AskedObjects(prompt); asked >= 0) {
+    options.min_objects = std::min(options.min_objects, asked);
+  }
   scene::FeasibleScene feasible = MakeFeasible(objects, asset_set, options);
   Sampled sampled;
   sampled.attempt = AttemptOf(feasible, static_cast<int>(objects.size()));
@@ -102,11 +115,11 @@ scene::SceneShard PartOf(const std::vector<Sampled>& scenes, const scene::Vocabu
 }
 
 fs::path SamplingWeights(const SceneSamplingRequest& request) {
-  if (request.weights.empty() && request.type.empty()) {
-    throw core::Error("give weights or a scene type to sample from", "",
-                      "name a weights file, or a --type with shipped weights");
-  }
-  return request.weights.empty() ? ShippedSceneWeights(request.type) : request.weights;
+  if (!request.weights.empty()) return request.weights;
+  if (!request.type.empty()) return ShippedWeightsForType(request.type);
+  if (!request.prompts.empty() || !request.prompt_file.empty()) return ShippedTextWeights();
+  throw core::Error("give weights, a scene type or a prompt to sample from", "",
+                    "name a weights file, a --type with shipped weights, or a --prompt");
 }
 
 scene::ShardOrigin OriginOf(const SceneSamplingRequest& request,

@@ -46,7 +46,7 @@ fs::path SteeringWeights(const SceneSteeringRequest& request, const SceneSource&
     throw core::Error("the scene does not record its type", request.scene.string(),
                       "name a --type with shipped weights, or a --model");
   }
-  return ShippedSceneWeights(type);
+  return ShippedWeightsForType(type);
 }
 
 // Merges the findings of many scenes that say the same into one, at the first of these scenes.
