@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 #include <vector>
@@ -26,6 +28,22 @@ fs::path Normalised(const fs::path& path) {
   fs::path absolute = fs::absolute(path).lexically_normal();
   // "dir/" has an empty file name: use the folder itself.
   return absolute.has_filename() ? absolute : absolute.parent_path();
+}
+
+// Returns why a folder may not be replaced as an output; empty if it may.
+std::string FaultOfReplacing(const fs::path& folder) {
+  std::error_code code;
+  const fs::path real = fs::weakly_canonical(folder, code);
+  const auto contains = [&](const fs::path& inner) {
+    const fs::path below = fs::weakly_canonical(inner, code);
+    return std::mismatch(real.begin(), real.end(), below.begin(), below.end()).first == real.end();
+  };
+  if (contains(fs::current_path(code))) return "the current folder is this one or in it";
+  const char* const home = std::getenv("HOME");
+  const bool has_home = home != nullptr && *home != '\0';
+  if (has_home && contains(home)) return "the home folder is this one or in it";
+  if (fs::exists(real / ".git", code)) return "this folder is a repository";
+  return "";
 }
 
 [[noreturn]] void ThrowErrno(const std::string& what, const fs::path& path) {
@@ -121,6 +139,12 @@ fs::path ResolveInside(const fs::path& root, const fs::path& relative) {
   return resolved;
 }
 
+void RequireReplaceable(const fs::path& folder) {
+  const std::string fault = FaultOfReplacing(Normalised(folder));
+  if (fault.empty()) return;
+  throw Error(fault + " and is not replaced", folder.string(), "choose another place");
+}
+
 StagedFolder::StagedFolder(const fs::path& target, bool force)
     : target_(Normalised(target)), force_(force) {
   std::error_code code;
@@ -130,6 +154,7 @@ StagedFolder::StagedFolder(const fs::path& target, bool force)
                   "choose another place or replace it with --force");
     }
     if (!fs::is_directory(target_)) throw Error("this is not a folder", target.string());
+    RequireReplaceable(target_);
   }
   for (fs::path parent = target_.parent_path(); !fs::exists(parent, code);
        parent = parent.parent_path()) {

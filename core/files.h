@@ -37,13 +37,17 @@ class StagedFile {
 std::filesystem::path ResolveInside(const std::filesystem::path& root,
                                     const std::filesystem::path& relative);
 
+// Throws core::Error if `folder` can be no output of ours that may be replaced: if it is a
+// repository or the current or home folder, or contains one of these two.
+void RequireReplaceable(const std::filesystem::path& folder);
+
 // An output folder that appears complete or not at all. Files are written into `staging()`, a
 // hidden sibling, and `Commit` renames it into place. If destroyed before `Commit`, it leaves
 // nothing behind.
 class StagedFolder {
  public:
-  // Throws core::Error if `target` exists and `force` is not set, or if its parent (created if
-  // missing) is not writable.
+  // Throws core::Error if `target` exists and `force` is not set, as RequireReplaceable does, or if
+  // its parent (created if missing) is not writable.
   StagedFolder(const std::filesystem::path& target, bool force);
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;

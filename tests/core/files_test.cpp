@@ -78,5 +78,21 @@ TEST_F(Files, StagedFolderAppearsWholeOrNotAtAll) {
   EXPECT_EQ(Entries(), 1);
 }
 
+TEST_F(Files, ForceReplacesNoFolderThatIsNoOutput) {
+  fs::create_directories(root_ / "code" / ".git");
+  fs::create_directories(root_ / "people" / "me");
+  EXPECT_THROW(StagedFolder(root_ / "code", true), Error);
+  EXPECT_THROW(StagedFolder(fs::current_path(), true), Error);
+  EXPECT_THROW(StagedFolder(fs::current_path().parent_path(), true), Error);
+  const char* const home = std::getenv("HOME");
+  const std::string before = home == nullptr ? "" : home;
+  setenv("HOME", (root_ / "people" / "me").c_str(), 1);
+  EXPECT_THROW(StagedFolder(root_ / "people", true), Error);
+  EXPECT_THROW(StagedFolder(root_ / "people" / "me", true), Error);
+  EXPECT_NO_THROW(StagedFolder(root_ / "people" / "me" / "out", true));
+  home == nullptr ? unsetenv("HOME") : setenv("HOME", before.c_str(), 1);
+  EXPECT_TRUE(fs::exists(root_ / "code" / ".git"));
+}
+
 }  // namespace
 }  // namespace simwright::core

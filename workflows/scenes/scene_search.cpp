@@ -128,6 +128,7 @@ class SceneSearchRun {
       throw core::Error("the output exists already", output.string(),
                         "choose another, or give --force, or --resume to continue its search");
     }
+    if (fs::exists(output)) core::RequireReplaceable(output);
     fs::remove_all(output);
     fs::create_directories(output);
   }
