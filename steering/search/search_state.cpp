@@ -1,8 +1,11 @@
 #include "steering/search/search_state.h"
 
+#include <optional>
+
 #include "core/error.h"
 #include "core/file_seal.h"
 #include "core/hdf5.h"
+#include "core/json.h"
 
 namespace simwright::steering {
 namespace fs = std::filesystem;
@@ -11,6 +14,21 @@ namespace {
 constexpr char kSearchFormat[] = "simwright scene search";
 constexpr std::int64_t kSearchVersion = 1;
 constexpr std::size_t kLinks = 3;  // integers per node: parent, visits, terminal
+
+// Returns the first member in which two JSON objects differ, as ": steps was 4 and is now 5"; empty
+// if either is no object.
+std::string Difference(const std::string& before, const std::string& now) {
+  const std::optional<core::Json> earlier = core::TryParseJson(before);
+  const std::optional<core::Json> wanted = core::TryParseJson(now);
+  if (!earlier || !wanted || !earlier->is_object() || !wanted->is_object()) return "";
+  for (const auto& [name, value] : wanted->items()) {
+    const auto found = earlier->find(name);
+    if (found != earlier->end() && *found == value) continue;
+    const std::string was = found == earlier->end() ? "absent" : core::JsonLine(*found);
+    return ": " + name + " was " + was + " and is now " + core::JsonLine(value);
+  }
+  return "";
+}
 
 void WriteTree(const SearchState& state, core::Hdf5Group* root) {
   std::vector<std::int64_t> links;
@@ -138,9 +156,9 @@ SearchState ReadSearchState(const fs::path& path, const scene::Vocabulary& vocab
       root.IntegerAttribute("version") != kSearchVersion) {
     throw core::Error("this is not the state of a search of this version", path.string());
   }
-  if (root.TextAttribute("settings") != settings) {
-    throw core::Error("the search was started with other settings", path.string(),
-                      "resume it with the same options");
+  if (const std::string before = root.TextAttribute("settings"); before != settings) {
+    throw core::Error("the search was started with other settings" + Difference(before, settings),
+                      path.string(), "resume it with the same options");
   }
   SearchState state;
   state.best = static_cast<int>(root.IntegerAttribute("best"));

@@ -165,7 +165,9 @@ void SceneSearchCommand::RefusesWhatDoesNotFit() {
     EXPECT_FALSE(fs::exists(At("refused"))) << arguments;
   }
   EXPECT_EQ(RunProgram(Search("--repair maybe", "refused")).code, 2);
-  EXPECT_EQ(RunProgram(Search("--iterations 4 --resume --fill 2", "found")).code, 1);
+  const Outcome other = RunProgram(Search("--iterations 4 --resume --fill 2", "found"));
+  EXPECT_EQ(other.code, 1);
+  EXPECT_NE(other.text.find("fill was 4 and is now 2"), std::string::npos) << other.text;
   EXPECT_EQ(RunProgram(Search("--iterations 4", "found")).code, 1) << "it exists already";
 }
 
