@@ -140,6 +140,13 @@ void SceneCommand::LearnsAndSamples() {
     for (const scene::SceneObject& one : objects) ++counts[one.category];
     EXPECT_EQ(counts, (std::map<std::string, int>{{"cup", 2}, {"table_round", 1}, {"teapot", 1}}));
   }
+  // A prompt alone is for the shipped model of all types, which reads it.
+  const Outcome read =
+      RunProgram("scene sample --count 2 --steps 20 --raw --assets " + Dimsum() +
+                 "/assets --prompt \"a dim sum table with two cups\" -o " + At("read"));
+  ASSERT_EQ(read.code, 0) << read.text;
+  EXPECT_EQ(read.text.find("only the counts are held"), std::string::npos) << read.text;
+  EXPECT_EQ(scene::SceneDataset(fs::path(At("read"))).vocabulary().type, "dimsum");
   // Fewer objects than a scene of the data has are enough if the prompt asks for no more.
   const Outcome few =
       RunProgram("scene sample --type dimsum --count 4 --steps 20 --assets " + Dimsum() +

@@ -46,9 +46,9 @@ class ScenePosttrainCommand : public testing::Test {
   // Physics and pictures of the samples take most of the time: one run has them.
   static Outcome PostTrain(const std::string& arguments, const std::string& output,
                            int settled = 0) {
-    return RunProgram(Command("--data " + Data() + " --count 8 --settled " +
-                                  std::to_string(settled) + " " + arguments,
-                              output));
+    return RunProgram(Command(
+        "--data " + Data() + " --count 8 --settled " + std::to_string(settled) + " " + arguments,
+        output));
   }
 
   static inline core::TemporaryFolder* folder_ = nullptr;
