@@ -30,13 +30,18 @@ fs::path Normalised(const fs::path& path) {
   return absolute.has_filename() ? absolute : absolute.parent_path();
 }
 
+// Returns true if `path` is `folder` or below it; both without links.
+bool IsWithin(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
 // Returns why a folder may not be replaced as an output; empty if it may.
 std::string FaultOfReplacing(const fs::path& folder) {
   std::error_code code;
   const fs::path real = fs::weakly_canonical(folder, code);
-  const auto contains = [&](const fs::path& inner) {
-    const fs::path below = fs::weakly_canonical(inner, code);
-    return std::mismatch(real.begin(), real.end(), below.begin(), below.end()).first == real.end();
+  const auto contains = [&](const fs::path& path) {
+    return IsWithin(fs::weakly_canonical(path, code), real);
   };
   if (contains(fs::current_path(code))) return "the current folder is this one or in it";
   const char* const home = std::getenv("HOME");
@@ -130,9 +135,7 @@ void StagedFile::Commit() {
 fs::path ResolveInside(const fs::path& root, const fs::path& relative) {
   const fs::path real_root = fs::weakly_canonical(root);
   const fs::path resolved = fs::weakly_canonical(real_root / relative);
-  const auto mismatch =
-      std::mismatch(real_root.begin(), real_root.end(), resolved.begin(), resolved.end());
-  if (mismatch.first != real_root.end()) {
+  if (!IsWithin(resolved, real_root)) {
     throw Error("the path leads outside " + root.string(), relative.string(),
                 "only files inside that folder are read");
   }

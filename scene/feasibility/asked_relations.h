@@ -21,9 +21,9 @@ std::vector<KeptRelation> AskedRelations(const Prompt& prompt,
                                          const CategorySizes& sizes,
                                          const std::vector<char>& named = {});
 
-// Moves objects that are not welded by the least displacements with which the asked relations hold,
-// collisions aside. Moves nothing if the relations contradict each other. Throws core::Error as
-// AskedRelations does.
+// Moves objects that are not welded by the least displacements, m, with which the asked relations
+// hold, collisions aside. Moves nothing if the relations contradict each other. `named` and errors:
+// as of AskedRelations.
 void EstablishRelations(const Prompt& prompt, const CategorySizes& sizes,
                         const std::vector<char>& named, std::vector<SceneObject>* objects);
 

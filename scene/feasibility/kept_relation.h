@@ -16,8 +16,8 @@ struct KeptRelation {
   Relation relation = Relation::kOn;
   PlacedBox subject_box, object_box;  // of the bodies at their initial poses
   // True for a tier of a shelf instead of `relation`: `object` is the shelf and `object_box` the
-  // space over the board (Shelves::SpacesOf). The subject's centre is over its footprint, and the
-  // subject's base is at most kContactHeight below its base and lower than the next board.
+  // space over the board (Shelves::SpacesOf). It holds if the subject's centre is over the space's
+  // footprint and its base at most kContactHeight below the board, but not so near the next board.
   bool tier = false;
 };
 

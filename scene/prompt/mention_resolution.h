@@ -24,7 +24,7 @@ struct MentionQuantity {
 // Returns the state of a name in `parsed`, which is added where it is new.
 MentionedName& MentionedNameOf(int name, ParsedPrompt* parsed);
 
-// Adds a note of a prompt, once, and only as many as a reader can use.
+// Adds a note on a prompt unless there is one with this sentence, or there are 50 notes.
 void AddPromptNote(const char* code, core::Severity severity, const std::string& sentence,
                    core::Findings* findings);
 

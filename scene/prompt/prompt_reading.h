@@ -20,8 +20,8 @@ inline constexpr int kMostPromptWords = 2000;
 struct PromptReading {
   Prompt prompt;
   std::string text;  // prompt.Text(), which models read
-  // The names that are mentioned by reference only, as in "next to the bowl": objects of a scene
-  // that is there, or, without one, asked for, too. A subset of prompt.names.
+  // The names that are mentioned by reference only, as in "next to the bowl". A subset of
+  // prompt.names: a new scene gets these objects, too; a completion looks for them in its scene.
   std::vector<std::string> referred = {};
   // Notes on readings that were chosen (numbers for "several", synonyms, ignored words) and
   // warnings about objects that are not known and statements that are not understood.

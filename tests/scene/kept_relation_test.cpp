@@ -98,8 +98,8 @@ TEST(KeptRelation, EstablishesEachRelationFromAnywhereNear) {
   }
 }
 
-// A cube 20 cm under a board of 40 x 40 cm, 25 cm beside its middle: it comes to stand on it, 0.15
-// m inward with a millimetre of margin. One that is there already, in a stack, stays.
+// A cube 20 cm under a board of 40 x 40 cm, its centre 5 cm outside: it moves 5 cm inward and 20 cm
+// up, with a millimetre of margin each. One that is over the board already, as in a stack, stays.
 TEST(KeptRelation, TiersLiftOntoTheBoard) {
   PlacedBox space;
   space.center = Vector3d(0.0, 0.0, 0.5);

@@ -108,7 +108,7 @@ void SceneSteeringCommand::CompletesSeveralScenes() {
             core::ReadFile(fs::path(At("completed")) / scene::ShardName(0)));
 }
 
-// The plate of the prompt is one that is there; the teapot is there or added.
+// The cup is new, and the plate is one that is there.
 void SceneSteeringCommand::CompletesAsThePromptSays() {
   const Objects before = ObjectsOf(Dimsum(), 1);
   ASSERT_GT(CategoryCounts(before)["plate"], 0);

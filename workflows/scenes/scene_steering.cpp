@@ -49,25 +49,27 @@ fs::path SteeringWeights(const SceneSteeringRequest& request, const SceneSource&
   return ShippedWeightsForType(type);
 }
 
-// Merges the findings of many scenes that say the same into one, at the first of these scenes.
-void MergeSameFindings(core::Findings* findings) {
+// Merges the notes on added references that say the same of many scenes into one, at the first of
+// these scenes. Other findings are about one object each and stay as they are.
+void MergeReferenceNotes(core::Findings* findings) {
   core::Findings merged;
-  std::vector<int> more;
+  std::vector<int> scenes;
   for (const core::Finding& finding : *findings) {
-    size_t same = 0;
+    size_t same = finding.code == kReferenceAdded ? 0 : merged.size();
     while (same < merged.size() &&
            (merged[same].code != finding.code || merged[same].sentence != finding.sentence)) {
       ++same;
     }
     if (same < merged.size()) {
-      ++more[same];
+      ++scenes[same];
       continue;
     }
     merged.push_back(finding);
-    more.push_back(0);
+    scenes.push_back(1);
   }
   for (size_t i = 0; i < merged.size(); ++i) {
-    if (more[i] > 0) merged[i].place += " and " + std::to_string(more[i]) + " more scenes";
+    if (scenes[i] == 1) continue;
+    merged[i].place += " (and so in " + std::to_string(scenes[i]) + " scenes in all)";
   }
   *findings = std::move(merged);
 }
@@ -93,7 +95,7 @@ class SceneSteering {
     for (const SourceScene& one : source_.scenes) {
       scenes_.emplace_back(one, goal_, model_.metadata(), &source_assets_, &report_.findings);
     }
-    MergeSameFindings(&report_.findings);
+    MergeReferenceNotes(&report_.findings);
     reports_.resize(scenes_.size());
   }
 

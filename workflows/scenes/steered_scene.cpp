@@ -188,9 +188,9 @@ void SteeredScene::AddMissingReferred(const SteeringGoal& goal, core::Findings* 
     if (missing <= 0) continue;
     names_.push_back({one.name, missing});
     count_ += missing;
-    findings->push_back({"reference-added", core::Severity::kInfo, name_,
-                         "the scene lacks what the prompt refers to: " +
-                             scene::CountedName(missing, one.name) + " is added"});
+    findings->push_back({kReferenceAdded, core::Severity::kInfo, name_,
+                         "the scene lacks what the prompt refers to, which is added: " +
+                             scene::CountedName(missing, one.name)});
   }
   if (count_ != 0 || goal.referred.empty()) return;
   throw core::Error("the scene has all objects that the prompt names", name_,

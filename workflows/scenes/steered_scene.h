@@ -12,6 +12,9 @@
 
 namespace simwright::workflows {
 
+// The code of the note that an object which a prompt refers to is added.
+inline constexpr char kReferenceAdded[] = "reference-added";
+
 struct SteeredObject {
   std::string name;
   scene::SceneObject object;
