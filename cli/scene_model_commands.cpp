@@ -6,6 +6,7 @@
 
 #include "cli/category_folders.h"
 #include "cli/findings_output.h"
+#include "cli/scene_sampling_options.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
 #include "core/json.h"
@@ -209,13 +210,7 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
       ->add_option("--guidance", request->sampling.guidance,
                    "Weight of classifier-free guidance: how far to follow the prompt; 0: none")
       ->capture_default_str();
-  command->add_option(
-      "--text-encoder", request->text_encoder,
-      "The TorchScript text encoder that the model was trained with, if it has one");
-  command->add_option("--steps", request->sampling.steps, "Diffusion steps; 0: all")
-      ->capture_default_str();
-  command->add_option("--eta", request->sampling.eta, "Fraction of the noise kept in each step")
-      ->capture_default_str();
+  AddSceneSamplingOptions(command, &request->text_encoder, &request->sampling);
   command->add_option("--batch", request->sampling.batch, "Scenes per batch")
       ->capture_default_str();
   command->add_flag("--raw", request->raw,

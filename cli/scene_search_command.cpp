@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/findings_output.h"
+#include "cli/scene_sampling_options.h"
 #include "workflows/scenes/scene_search.h"
 
 namespace simwright::cli {
@@ -88,10 +89,7 @@ void AddSearchSettings(CLI::App* command, workflows::SceneSearchRequest* request
                     "Select by the rewards as they are, not on a scale of 0 to 1");
   command->add_flag("--random", request->random,
                     "Also draw as many unconditional samples, as a comparison");
-  command->add_option("--steps", request->sampling.steps, "Diffusion steps; 0: all")
-      ->capture_default_str();
-  command->add_option("--eta", request->sampling.eta, "Fraction of the noise kept in each step")
-      ->capture_default_str();
+  AddSceneSamplingOptions(command, &request->text_encoder, &request->sampling);
 }
 
 }  // namespace
@@ -121,9 +119,6 @@ void AddSceneSearch(CLI::App* scene, CommonOptions* common, Run* run) {
       ->add_option("--assets", request->assets,
                    "A folder of asset folders, matched by name or category")
       ->default_str("the start scene's, then the library");
-  command->add_option(
-      "--text-encoder", request->text_encoder,
-      "The TorchScript text encoder that the model was trained with, if it has one");
   command->add_option("--save-every", request->save_every, "Iterations between two saved states")
       ->capture_default_str();
   command->add_flag("--resume", request->resume, "Continue the search in the output folder");

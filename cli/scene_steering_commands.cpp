@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/findings_output.h"
+#include "cli/scene_sampling_options.h"
 #include "workflows/scenes/scene_steering.h"
 
 namespace simwright::cli {
@@ -47,13 +48,7 @@ void AddSteering(CLI::App* command, workflows::SceneSteeringRequest* request,
       ->add_option("--assets", request->assets,
                    "The folder of the categories' assets, if not the scene's")
       ->default_str("the scene's, then the library");
-  command->add_option(
-      "--text-encoder", request->text_encoder,
-      "The TorchScript text encoder that the model was trained with, if it has one");
-  command->add_option("--steps", request->sampling.steps, "Diffusion steps; 0: all")
-      ->capture_default_str();
-  command->add_option("--eta", request->sampling.eta, "Fraction of the noise kept in each step")
-      ->capture_default_str();
+  AddSceneSamplingOptions(command, &request->text_encoder, &request->sampling);
   command->add_option("--batch", request->sampling.batch, "Proposals per batch")
       ->capture_default_str();
   command

@@ -14,6 +14,20 @@
 namespace simwright::core {
 namespace {
 
+constexpr char kLockFile[] = ".lock";
+
+// Returns true if the folder can be read and has no other entry than the lock's file.
+bool HoldsLockOnly(const std::filesystem::path& folder) {
+  std::error_code code;
+  std::filesystem::directory_iterator entry(folder, code);
+  const std::filesystem::directory_iterator end;
+  while (!code && entry != end) {
+    if (entry->path().filename() != kLockFile) return false;
+    entry.increment(code);
+  }
+  return !code;
+}
+
 // Returns the holder's process number; empty if the file states none.
 std::string HolderOf(int file) {
   char text[24] = {};
@@ -26,10 +40,11 @@ std::string HolderOf(int file) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& work) {
+FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& work)
+    : folder_(folder) {
   std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  const std::filesystem::path path = folder / ".lock";
+  created_ = std::filesystem::create_directories(folder, code);
+  const std::filesystem::path path = folder / kLockFile;
   file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file_ < 0) {
     throw Error(std::string("cannot be written: ") + std::strerror(errno), path.string(),
@@ -57,6 +72,10 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& w
 }
 
 FolderLock::~FolderLock() {
+  if (created_ && HoldsLockOnly(folder_)) {
+    std::error_code code;
+    std::filesystem::remove_all(folder_, code);
+  }
   close(file_);
 }
 

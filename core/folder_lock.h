@@ -14,12 +14,16 @@ class FolderLock {
   // core::Error if another process holds the lock, naming that process, or the folder is not
   // writable.
   FolderLock(const std::filesystem::path& folder, const std::string& work);
+  // Removes the folder where the constructor created it and nothing else was written there, so that
+  // work that is stopped early leaves no empty folder.
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
  private:
+  std::filesystem::path folder_;
   int file_ = -1;
+  bool created_ = false;
 };
 
 }  // namespace simwright::core

@@ -44,10 +44,10 @@ class RelationPlanes {
   std::vector<SeparationConstraint> InSpace() {
     Over(b_);
     const double board = a_.half.z() - b_.half.z();  // d.z where a stands on it
-    const double most =
-        IsInSpace(a_, b_) ? a_.half.z() + b_.half.z() : board + 2.0 * kContactHeight;
+    const double highest =
+        IsInSpace(a_, b_) ? a_.half.z() + b_.half.z() - kContactHeight : board + kContactHeight;
     Require(Vector3d::UnitZ(), board + kRelationMargin);
-    Require(-Vector3d::UnitZ(), kContactHeight + kRelationMargin - most);
+    Require(-Vector3d::UnitZ(), kRelationMargin - highest);
     return std::move(rows_);
   }
 

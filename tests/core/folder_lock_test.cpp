@@ -36,6 +36,22 @@ TEST(FolderLock, ASecondHolderIsRefusedAndTheFirstIsNamed) {
   EXPECT_EQ(Refusal(folder), "");
 }
 
+TEST(FolderLock, RemovesItsFolderIfNothingElseWasWrittenThere) {
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path() / "run";
+  { const FolderLock lock(folder, "a training"); }
+  EXPECT_FALSE(std::filesystem::exists(folder));
+  {
+    const FolderLock lock(folder, "a training");
+    WriteFile(folder / "loss.csv", "step,loss\n");
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "loss.csv"));
+  const std::filesystem::path existing = temporary.path() / "existing";
+  std::filesystem::create_directory(existing);
+  { const FolderLock lock(existing, "a training"); }
+  EXPECT_TRUE(std::filesystem::exists(existing));
+}
+
 // A killed process cannot clean up, but what it leaves blocks nobody.
 TEST(FolderLock, IsFreeAfterItsHolderWasKilled) {
   const TemporaryFolder folder;

@@ -8,6 +8,7 @@
 #include "scene/dataset/tokens.h"
 #include "scene/model/scene_model.h"
 #include "scene/model/training.h"
+#include "tests/scene/small_scene_model.h"
 
 namespace simwright::scene {
 namespace {
@@ -49,12 +50,7 @@ void WriteType(const fs::path& folder, const Vocabulary& vocabulary, int count) 
 }
 
 SceneModelOptions CombinedModel() {
-  SceneModelOptions options;
-  options.width = 64;
-  options.double_blocks = 1;
-  options.single_blocks = 2;
-  options.diffusion_steps = 100;
-  options.class_weight = 30.0;
+  SceneModelOptions options = SmallSceneModel();
   options.text = true;
   return options;
 }

@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "scene/dataset/tokens.h"
 #include "scene/model/scene_model.h"
+#include "tests/scene/small_scene_model.h"
 
 namespace simwright::scene {
 namespace {
@@ -40,16 +41,6 @@ void WriteScenes(const fs::path& folder, int count) {
   WriteShard(part, folder / ShardName(0));
 }
 
-SceneModelOptions SceneTrainingSmall() {
-  SceneModelOptions options;
-  options.width = 64;
-  options.double_blocks = 1;
-  options.single_blocks = 2;
-  options.diffusion_steps = 100;
-  options.class_weight = 30.0;
-  return options;
-}
-
 SceneTrainingOptions Short(int steps) {
   // Next to other tests, two threads wait for each other longer than one computes.
   core::SetThreadCount(1);
@@ -67,9 +58,8 @@ TEST(SceneTraining, LearnsWhatScenesHold) {
   const core::TemporaryFolder folder;
   WriteScenes(folder.path(), 200);
   core::Progress progress;
-  const SceneTrainingReport report =
-      TrainSceneModel(SceneDataset(folder.path()), SceneTrainingSmall(), Short(400),
-                      folder.path() / "run", &progress);
+  const SceneTrainingReport report = TrainSceneModel(SceneDataset(folder.path()), SmallSceneModel(),
+                                                     Short(400), folder.path() / "run", &progress);
   EXPECT_EQ(report.training_scenes, 180);
   EXPECT_EQ(report.held_out_scenes, 20);
 
@@ -113,7 +103,7 @@ TEST(SceneTraining, FollowsPrompts) {
   const core::TemporaryFolder folder;
   WriteScenes(folder.path(), 200);
   core::Progress progress;
-  SceneModelOptions small = SceneTrainingSmall();
+  SceneModelOptions small = SmallSceneModel();
   small.text = true;
   SceneTrainingOptions training = Short(400);
   training.text_pieces = 80;
@@ -160,7 +150,7 @@ TEST(SceneTraining, PlacesAnAssetItHasNotSeen) {
   const core::TemporaryFolder folder;
   WriteScenes(folder.path(), 200);
   core::Progress progress;
-  SceneModelOptions options = SceneTrainingSmall();
+  SceneModelOptions options = SmallSceneModel();
   options.shape_points = kPoints;
   SceneTrainingOptions training = Short(700);
   EXPECT_THROW(TrainSceneModel(SceneDataset(folder.path()), options, training,
@@ -203,16 +193,16 @@ TEST(SceneTraining, GoesOnWhereItStopped) {
   const SceneDataset dataset(folder.path());
   core::Progress progress;
   SceneTrainingOptions options = Short(40);
-  TrainSceneModel(dataset, SceneTrainingSmall(), options, folder.path() / "run", &progress);
+  TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / "run", &progress);
   options.trainer.steps = 60;
   options.trainer.resume = true;
   const SceneTrainingReport report =
-      TrainSceneModel(dataset, SceneTrainingSmall(), options, folder.path() / "run", &progress);
+      TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / "run", &progress);
   ASSERT_EQ(report.losses.size(), 6u);
   EXPECT_EQ(report.losses.front().step, 10);
   EXPECT_EQ(report.losses.back().step, 60);
   EXPECT_EQ(SceneModel::Load(report.weights).metadata().steps, 60);
-  SceneModelOptions other = SceneTrainingSmall();
+  SceneModelOptions other = SmallSceneModel();
   other.width = 32;
   EXPECT_THROW(TrainSceneModel(dataset, other, options, folder.path() / "run", &progress),
                core::Error);
@@ -225,7 +215,7 @@ TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
   core::Progress progress;
   SceneTrainingOptions options = Short(40);
   const SceneTrainingReport good =
-      TrainSceneModel(dataset, SceneTrainingSmall(), options, folder.path() / "run", &progress);
+      TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / "run", &progress);
   const std::string weights = core::ReadFile(good.weights);
   options.trainer.steps = 400;
   options.trainer.save_every = 1000;
@@ -233,7 +223,7 @@ TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
   options.trainer.learning_rate = 1e18;
   options.trainer.largest_norm = 1e30;
   try {
-    TrainSceneModel(dataset, SceneTrainingSmall(), options, folder.path() / "run", &progress);
+    TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / "run", &progress);
     FAIL() << "a rate of 1e18 did not diverge";
   } catch (const core::Error& error) {
     EXPECT_NE(std::string(error.what()).find("diverged"), std::string::npos) << error.what();

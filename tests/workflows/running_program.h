@@ -16,6 +16,17 @@
 
 namespace simwright {
 
+// Returns true if there is a folder beside `output` whose name contains its name: the one in which
+// a command prepares its output.
+inline bool HasStagingFolderOf(const std::filesystem::path& output) {
+  for (const auto& entry : std::filesystem::directory_iterator(output.parent_path())) {
+    const bool named =
+        entry.path().filename().string().find(output.filename().string()) != std::string::npos;
+    if (named && std::filesystem::is_directory(entry.path())) return true;
+  }
+  return false;
+}
+
 // The built program at work beside the test. It is killed where the test does not wait for it.
 class RunningProgram {
  public:

@@ -2,7 +2,6 @@
 // rejected.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <csignal>
 #include <filesystem>
 
@@ -164,6 +163,7 @@ void SceneCertifyCommand::RefusesWhatDoesNotFit() {
   expect(Certify(pantry, "sing a song", out), "not understood");
   expect(Certify(pantry, "bring the pear", out), "not understood");
   expect(Certify(pantry, "bring to the front", out), "not understood");
+  expect(Certify(pantry, "bring the aple to the front", out), "error: --task: ");
   expect(Certify(pantry, "bring the aple to the front", out), "apple");
   expect(Certify(pantry, "bring the teapot to the front", out), "the objects are");
   expect(Certify(pantry, "bring the 40th pear to the front", out), "no 40th pear");
@@ -190,14 +190,7 @@ void SceneCertifyCommand::LeavesNothingWhenStopped() {
   RunningProgram program(
       "scene certify " + At("pantry") + " --task \"lift the pear\" --every -o " + At("stopped"),
       At("stopped.log"));
-  const auto staging = [] {
-    return std::any_of(fs::directory_iterator(folder_->path()), fs::directory_iterator(),
-                       [](const fs::directory_entry& entry) {
-                         return entry.path().filename().string().find("stopped") !=
-                                    std::string::npos &&
-                                fs::is_directory(entry.path());
-                       });
-  };
+  const auto staging = [] { return HasStagingFolderOf(At("stopped")); };
   ASSERT_TRUE(program.WaitFor(staging));
   program.EndBy(SIGINT);
   EXPECT_FALSE(staging()) << "it left a folder";

@@ -37,5 +37,28 @@ TEST(ScenePrompts, ReportsNameTheStatementsThatDoNotHold) {
   EXPECT_EQ(PromptJson(reports)[0]["relations_broken"].size(), 2u);
 }
 
+// Of the four scenes, in turn for the two prompts, one of the first and both of the second have all
+// that is named.
+TEST(ScenePrompts, ReportsCountTheScenesWithEveryName) {
+  const scene::Prompt cups{scene::PromptKind::kNames, {}, {{"mug", 2}, {"bowl", 1}}, true, {}, {}};
+  const scene::Prompt mugs{scene::PromptKind::kNames, {}, {{"mug", 1}}, true, {}, {}};
+  const std::vector<std::vector<scene::SceneObject>> scenes = {
+      {PlacedAt("mug", 0.3), PlacedAt("bowl", 0.0)},
+      {PlacedAt("mug", 0.0)},
+      {PlacedAt("mug", 0.3), PlacedAt("mug", 0.0)},
+      {PlacedAt("mug", 0.3), PlacedAt("bowl", 0.0)}};
+  const std::vector<PromptReport> reports =
+      ReportsOf({cups, mugs}, scenes, scene::DefaultCategorySizes());
+  ASSERT_EQ(reports.size(), 2u);
+  EXPECT_EQ(reports[0].complete, 1);
+  EXPECT_EQ(reports[1].complete, 2);
+  EXPECT_EQ(PromptJson(reports)[0]["scenes_with_every_name"], 1);
+  // Agreement: (2 - 1 + 1) / 3 and 2 / 3 with the first prompt, 1 with the second.
+  EXPECT_NE(PromptTable(reports).find(
+                "all prompts: agreement 0.83, exact in 2 of 4, every name in 3 of 4"),
+            std::string::npos)
+      << PromptTable(reports);
+}
+
 }  // namespace
 }  // namespace simwright::workflows

@@ -259,14 +259,7 @@ void SceneSteeringCommand::LeavesNothingWhenStopped() {
                              " --scene 0,1 --count 4 --candidates 50 --steps 1000 -o " +
                              At("stopped"),
                          At("stopped.log"));
-  const auto staging = [] {
-    return std::any_of(fs::directory_iterator(folder_->path()), fs::directory_iterator(),
-                       [](const fs::directory_entry& entry) {
-                         return entry.path().filename().string().find("stopped") !=
-                                    std::string::npos &&
-                                fs::is_directory(entry.path());
-                       });
-  };
+  const auto staging = [] { return HasStagingFolderOf(At("stopped")); };
   ASSERT_TRUE(program.WaitFor(staging));
   program.EndBy(SIGINT);
   EXPECT_FALSE(staging()) << "it left a folder";

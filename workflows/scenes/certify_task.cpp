@@ -50,6 +50,17 @@ Words WordsOf(const std::string& text) {
                     "\"lift the apple\"");
 }
 
+// Reads the phrase as a prompt, whose errors name the option.
+scene::PromptReading ReadPhrase(const std::string& phrase, const std::vector<std::string>& names) {
+  try {
+    return scene::ReadPrompt(phrase, names, physics_params::WordNet::Installed());
+  } catch (const core::Error& error) {
+    const std::string line = error.what(), prefix = error.where() + ": ";
+    const bool has_place = !error.where().empty() && line.compare(0, prefix.size(), prefix) == 0;
+    throw core::Error(has_place ? line.substr(prefix.size()) : line, "--task");
+  }
+}
+
 // Reads an object: an ordinal and a name.
 scene::ObjectReference ReadReference(Words words, const std::vector<std::string>& known_names,
                                      core::Findings* findings) {
@@ -69,8 +80,7 @@ scene::ObjectReference ReadReference(Words words, const std::vector<std::string>
   }
   std::string phrase;
   for (const std::string& word : words) phrase += (phrase.empty() ? "" : " ") + word;
-  const scene::PromptReading reading =
-      scene::ReadPrompt(phrase, known_names, physics_params::WordNet::Installed());
+  const scene::PromptReading reading = ReadPhrase(phrase, known_names);
   for (const core::Finding& finding : reading.findings) {
     findings->push_back(finding);
     findings->back().place = "--task";

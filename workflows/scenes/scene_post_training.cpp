@@ -312,9 +312,7 @@ ScenePostTrainingReport PostTrainScenes(const ScenePostTrainingRequest& request,
       scene::ReadAssetSet(FoldersOfCategories(request.data, request.assets, categories));
   const Objective objective = ObjectiveOf(request, model, asset_set, &report.findings);
   report.objective = objective.reward->Name();
-  std::optional<core::FolderLock> lock;
-  fs::create_directories(request.output);
-  lock.emplace(request.output, "a post-training");
+  const core::FolderLock lock(request.output, "a post-training");
   if (request.options.trainer.resume) {
     CheckPostTrainingSettings(request, weights);
   } else {

@@ -1,5 +1,6 @@
 #include "workflows/scenes/scene_prompts.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "physics_params/wordnet.h"
+#include "scene/prompt/object_names.h"
 #include "scene/prompt/prompt_agreement.h"
 #include "scene/prompt/prompt_reading.h"
 #include "scene/prompt/scene_type_words.h"
@@ -48,6 +50,16 @@ bool IsBareScene(const std::string& text) {
   return letters == "scene" || letters == "ascene" || letters == "thescene";
 }
 
+// Returns true if a scene has at least one object of each name that is asked for.
+bool HasAllNames(const scene::Prompt& prompt, const std::vector<scene::SceneObject>& objects) {
+  return std::all_of(prompt.names.begin(), prompt.names.end(), [&](const scene::NamedCount& one) {
+    return one.count == 0 ||
+           std::any_of(objects.begin(), objects.end(), [&](const scene::SceneObject& object) {
+             return scene::NameOfCategory(object.category) == one.name;
+           });
+  });
+}
+
 PromptReport ReportOf(const scene::Prompt& prompt, size_t index, size_t prompts,
                       const std::vector<std::vector<scene::SceneObject>>& scenes,
                       const scene::CategorySizes& sizes, const std::vector<char>& counted) {
@@ -63,6 +75,7 @@ PromptReport ReportOf(const scene::Prompt& prompt, size_t index, size_t prompts,
     ++report.scenes;
     report.apf += agreement.apf;
     report.strict += agreement.strict;
+    report.complete += HasAllNames(prompt, scenes[i]) ? 1 : 0;
     report.statements = agreement.statements;
     held += agreement.StatementShare();
     for (size_t k = 0; k < agreement.holds.size(); ++k) {
@@ -145,7 +158,12 @@ std::vector<PromptReport> ReportsOf(const std::vector<scene::Prompt>& prompts,
 
 std::string PromptTable(const std::vector<PromptReport>& reports) {
   std::string text;
+  PromptReport all;
   for (const PromptReport& report : reports) {
+    all.scenes += report.scenes;
+    all.apf += report.scenes * report.apf;
+    all.strict += report.scenes * report.strict;
+    all.complete += report.complete;
     char line[160];
     std::snprintf(line, sizeof line, ": agreement %.2f, exact in %.0f %% of %d", report.apf,
                   100.0 * report.strict, report.scenes);
@@ -159,6 +177,13 @@ std::string PromptTable(const std::vector<PromptReport>& reports) {
       text += "  does not hold in " + std::to_string(one.scenes) + " of " +
               std::to_string(report.scenes) + ": " + one.statement + "\n";
     }
+  }
+  if (reports.size() > 1 && all.scenes > 0) {
+    char line[160];
+    std::snprintf(line, sizeof line,
+                  "all prompts: agreement %.2f, exact in %.0f of %d, every name in %d of %d\n",
+                  all.apf / all.scenes, all.strict, all.scenes, all.complete, all.scenes);
+    text += line;
   }
   return text;
 }
@@ -174,6 +199,7 @@ core::OrderedJson PromptJson(const std::vector<PromptReport>& reports) {
                     {"scenes", report.scenes},
                     {"apf", report.apf},
                     {"strict_share", report.strict},
+                    {"scenes_with_every_name", report.complete},
                     {"relations", report.statements},
                     {"relations_held_share", report.held},
                     {"relations_broken", broken}});

@@ -47,6 +47,7 @@ struct PromptReport {
   int scenes = 0;
   double apf = 0.0;     // PromptAgreement::apf
   double strict = 0.0;  // share of scenes that agree exactly
+  int complete = 0;     // scenes with at least one object of each name that is asked for
   int statements = 0;   // relations and tiers that the prompt asks for
   double held = 0.0;    // share of them that hold
   // The statements that do not hold in every scene, and in how many they do not.
@@ -64,7 +65,8 @@ std::vector<PromptReport> ReportsOf(const std::vector<scene::Prompt>& prompts,
                                     const scene::CategorySizes& sizes,
                                     const std::vector<char>& counted = {});
 
-// Format the reports as lines for people and as JSON.
+// Format the reports as lines for people, the last one about all prompts if there are several, and
+// as JSON.
 std::string PromptTable(const std::vector<PromptReport>& reports);
 core::OrderedJson PromptJson(const std::vector<PromptReport>& reports);
 

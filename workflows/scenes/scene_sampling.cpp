@@ -159,6 +159,13 @@ void ValidateSampling(const SceneSamplingRequest& request) {
   if (!request.sampling.IsValid(&error)) throw core::Error("sampling: " + error);
 }
 
+void CheckSteps(int steps, const scene::SceneModelMetadata& metadata) {
+  const int most = metadata.options.diffusion_steps;
+  if (steps <= most) return;
+  throw core::Error("the model samples in 1 to " + std::to_string(most) + " steps", "--steps",
+                    "ask for fewer, or 0 for all");
+}
+
 // Sets what makes a model follow prompts: their words, if it reads any, and the counts. Throws
 // core::Error if neither can be.
 void FollowPrompts(const std::vector<scene::Prompt>& prompts, const scene::SceneModelOptions& model,
@@ -189,6 +196,7 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
   const fs::path weights = SamplingWeights(wanted);
   const scene::SceneModelMetadata metadata = scene::ReadSceneModelMetadata(weights);
   CheckSceneType(metadata, wanted.type, weights);
+  CheckSteps(wanted.sampling.steps, metadata);
   core::Findings findings;
   SceneSamplingRequest request = wanted;
   const RequestedPrompts requested = ReadPromptsAndTypes(
