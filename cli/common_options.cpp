@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "cli/number_validators.h"
 #include "cli/usage.h"
 #include "core/log.h"
 
@@ -16,7 +17,9 @@ int ReportStopped(const std::filesystem::path& folder) {
 }
 
 void AddCommon(CLI::App* command, CommonOptions* common) {
-  command->add_option("--seed", common->seed, "Seed of every random choice")->capture_default_str();
+  command->add_option("--seed", common->seed, "Seed of every random choice")
+      ->capture_default_str()
+      ->check(WholeNumber());
   command->add_option("--threads", common->threads, "Number of threads; 0: all")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);

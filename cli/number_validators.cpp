@@ -16,4 +16,13 @@ CLI::Validator Positive() {
       "POSITIVE");
 }
 
+CLI::Validator WholeNumber() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        const bool digits = !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+        return digits ? "" : "'" + text + "' has to be a whole number of at least 0";
+      },
+      "WHOLE");
+}
+
 }  // namespace simwright::cli

@@ -8,4 +8,8 @@ namespace simwright::cli {
 // CLI::PositiveNumber prints the smallest and the largest double instead.
 CLI::Validator Positive();
 
+// Returns a validator that accepts a whole number of at least 0. An option of an unsigned type
+// accepts "-1" without it, as a very large number.
+CLI::Validator WholeNumber();
+
 }  // namespace simwright::cli

@@ -46,15 +46,18 @@ void AddTrainingOptions(CLI::App* command, steering::PostTrainingOptions* option
   command->add_option("--clip", options->clip, "Clip of the importance ratio, around 1")
       ->capture_default_str();
   command->add_option("--data-weight", options->data_weight, "Weight of the loss on data")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--more-slots", options->more_entries,
                    "Slots of a scene beyond those of the model")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000));
   command->add_option("--score-every", options->score_every, "Rounds between checkpoints")
       ->capture_default_str();
   command->add_option("--scored", options->scored_scenes, "Scenes sampled to score a checkpoint")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(8, 1'000'000));
   command->add_flag("--resume", options->trainer.resume, "Resume from the folder's state");
 }
 

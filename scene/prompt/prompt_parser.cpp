@@ -359,6 +359,9 @@ void PromptParser::ReadUnknown() {
     return;
   }
   parsed_.unknown.push_back(words);
+  if (!none_ && !not_ && quantity_.Any() && parsed_.unknown_asked.empty()) {
+    parsed_.unknown_asked = (quantity_.words.empty() ? "" : quantity_.words + " ") + words;
+  }
   if (open_) open_->ignored = true;
   open_.reset();
   unknown_subject_ = true;
@@ -369,7 +372,8 @@ void PromptParser::ReadUnknown() {
 // Says that a number of tables or shelves has no effect: they belong to the scene type.
 void PromptParser::NoteFurniture(const PromptItem& item) {
   const bool furniture = item.words.starts_with("table") || item.words.starts_with("shel");
-  const bool counted = none_ || (quantity_.number && *quantity_.number != 1);
+  const bool counted =
+      none_ || quantity_.ordinal > 0 || (quantity_.number && *quantity_.number != 1);
   if (!furniture || !counted) return;
   const std::string words = (none_ ? none_words_ : quantity_.words) + " " + item.words;
   Note("prompt-furniture", core::Severity::kWarning,
@@ -378,6 +382,10 @@ void PromptParser::NoteFurniture(const PromptItem& item) {
 
 void PromptParser::AddRelations(const Mention& subject, const PromptItem& relation,
                                 const Mention& object) {
+  if (subject == object && subject.size() == 1) {
+    Note("prompt-statement-ignored", core::Severity::kWarning,
+         "an object \"" + relation.words + "\" itself is ignored; write \"another\" for two");
+  }
   for (const MentionedObject& a : relation.reversed ? object : subject) {
     for (const MentionedObject& b : relation.reversed ? subject : object) {
       const MentionedRelation one{a, relation.relation, b};

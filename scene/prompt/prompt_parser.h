@@ -54,6 +54,7 @@ struct ParsedPrompt {
   std::vector<MentionedRelation> relations;
   std::vector<MentionedTier> tiers;
   std::vector<std::string> unknown;  // phrases that name an object that is not known
+  std::string unknown_asked;         // the first of them that is asked for, with its quantity
   std::vector<std::string> ignored;  // words without a meaning here
   core::Findings findings;
 };

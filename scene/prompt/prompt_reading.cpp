@@ -109,6 +109,9 @@ void SetTotal(const ParsedPrompt& parsed, Prompt* prompt) {
   if (!total && sum == 0 && !prompt->and_others) total = 0;  // "no cups and nothing else"
   if (!total) return;
   if (sum > *total) RejectContradiction(parsed.total_words, words);
+  if (parsed.total && *total == 0 && !parsed.unknown_asked.empty()) {
+    RejectContradiction(parsed.total_words, parsed.unknown_asked);
+  }
   if (*total > kMostPromptObjects) throw core::Error("too many objects are asked for", "prompt");
   if (parsed.no_others && sum < *total && sum > 0) {
     RejectContradiction(parsed.total_words, "nothing but " + words);

@@ -165,6 +165,13 @@ TEST(ReadPrompt, Statements) {
   EXPECT_TRUE(HasFinding(Reading("The mug is not on the plate"), "prompt-statement-ignored", "on"));
 }
 
+TEST(ReadPrompt, StatementsThatAreLeftOutAreSaid) {
+  EXPECT_TRUE(HasFinding(Reading("an apple on the ninth shelf"), "prompt-furniture", "ninth"));
+  EXPECT_TRUE(HasFinding(Reading("the apple is inside the apple"), "prompt-statement-ignored",
+                         "itself"));
+  EXPECT_FALSE(HasFinding(Reading("an apple on the top shelf"), "prompt-furniture", ""));
+}
+
 TEST(ReadPrompt, Synonyms) {
   if (WordNet::Installed() == nullptr) GTEST_SKIP() << "wordnet-base is not installed";
   EXPECT_EQ(Canonical("two soda cans"), "A scene with two cans.");
@@ -191,6 +198,12 @@ TEST(ReadPrompt, UnknownObjectsNameTheNearest) {
   EXPECT_TRUE(HasFinding(pie, "prompt-unknown-object", "apple pie"));
   const PromptReading goblet = Reading("a cup and a banana");
   EXPECT_TRUE(HasFinding(goblet, "prompt-unknown-object", "pear")) << goblet.findings[0].sentence;
+}
+
+TEST(ReadPrompt, NoObjectsContradictUnknownOnesThatAreAskedFor) {
+  const std::string error = ErrorOf("no objects and three dragons");
+  EXPECT_NE(error.find("contradicts \"three dragons\""), std::string::npos) << error;
+  EXPECT_EQ(Canonical("no objects"), "A scene with 0 objects.");
 }
 
 TEST(ReadPrompt, ContradictionsNameBothParts) {

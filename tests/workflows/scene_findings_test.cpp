@@ -38,6 +38,17 @@ TEST(SceneFindings, TheShareOfObjectsThatWasKeptIsSaid) {
   EXPECT_TRUE(DroppedFindings(StatisticsOf({Attempt(20, 1)})).empty());
 }
 
+TEST(SceneFindings, FiguresOfPhysicsAreLeftOutWithoutPhysics) {
+  SceneStatistics raw = StatisticsOf({Attempt(6, 0), Attempt(8, 0)});
+  raw.physics = false;
+  const std::string table = StatisticsTable(raw);
+  EXPECT_NE(table.find("without physics"), std::string::npos) << table;
+  EXPECT_NE(table.find("objects: mean 7.0, at most 8"), std::string::npos) << table;
+  for (const char* const measured : {"penetration", "drift", "objects kept"}) {
+    EXPECT_EQ(table.find(measured), std::string::npos) << table;
+  }
+}
+
 TEST(SceneFindings, AFolderOfWhichNothingIsTakenIsSaid) {
   const core::TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() / "mine/empty");

@@ -30,6 +30,7 @@ class SceneSteeringCommand : public testing::Test {
   static void RearrangesWhatIsNotKept();
   static void TakesAnExportedSceneAndPoses();
   static void NamesWhatTheModelDoesNotSee();
+  static void SaysThatTheInputIsNotStable();
   static void RefusesWhatDoesNotFit();
   static void LeavesNothingWhenStopped();
 
@@ -213,6 +214,21 @@ void SceneSteeringCommand::NamesWhatTheModelDoesNotSee() {
   }));
 }
 
+// Two cups in one place are not made stable by being kept.
+void SceneSteeringCommand::SaysThatTheInputIsNotStable() {
+  const json cup = {{"asset", "dimsum/assets/cup"}, {"translation", {0.2, 0.1, 0.83}}};
+  const json poses = {
+      {{"asset", "dimsum/assets/table_round"}, {"translation", {0, 0, 0}}}, cup, cup};
+  const Outcome made = RunProgram("scene complete " + Write("twice.json", poses.dump()) +
+                                      " --type dimsum --count 1 --steps 10 --json -o " +
+                                      At("twice"),
+                                  "/dev/null");
+  EXPECT_EQ(made.code, 1) << made.text;
+  const json scene = json::parse(made.text)["scenes"][0];
+  EXPECT_FALSE(scene["stable"].get<bool>());
+  EXPECT_EQ(scene["unstable_kept"].size(), 2u) << made.text;
+}
+
 void SceneSteeringCommand::RefusesWhatDoesNotFit() {
   json crowd = json::array();
   for (int i = 0; i < 10'000; ++i) {
@@ -272,6 +288,7 @@ TEST_F(SceneSteeringCommand, KeepsWhatStands) {
   RearrangesWhatIsNotKept();
   TakesAnExportedSceneAndPoses();
   NamesWhatTheModelDoesNotSee();
+  SaysThatTheInputIsNotStable();
   RefusesWhatDoesNotFit();
   LeavesNothingWhenStopped();
 }

@@ -107,6 +107,7 @@ TEST(Usage, DoctorNamesWhatItNeeds) {
 
 TEST(Usage, TheLogGoesToStderrAtTheStatedLevel) {
   ExpectUsage("physics --category mug --log-level loud", "{trace,debug,info,warn,error,off}");
+  ExpectUsage("physics --category mug --seed -1", "whole number of at least 0");
   const core::TemporaryFolder folder;
   const std::string make = "library --kind light_switch --quiet -o ";
   const auto path = [&](const char* name) { return (folder.path() / name).string(); };

@@ -150,6 +150,7 @@ SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Prog
   const scene::SceneDataset dataset(request.output);
   SceneStatistics statistics = StatisticsOf(dataset.Attempts());
   statistics.type = request.type;
+  statistics.physics = !request.raw;
   statistics.elsewhere = elsewhere;
   core::WriteFile(request.output / "statistics.json", StatisticsJson(statistics));
   WriteSceneSheet(dataset, asset_set, request.output / "scenes.png");

@@ -29,6 +29,7 @@ struct SceneGenerationRequest {
 // The statistics of a dataset and its generation.
 struct SceneStatistics {
   std::string type;
+  bool physics = true;  // false: scenes as sampled, so that nothing was dropped or measured
   int scenes = 0, attempts = 0;
   // The rejected attempts that physics accepts but that have fewer free objects than a scene needs
   // (scene::FeasibilityOptions::fewest).

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <set>
 
 #include "assets/asset.h"
 #include "core/content_hash.h"
@@ -15,6 +16,7 @@
 #include "workflows/scenes/scene_assets.h"
 #include "workflows/scenes/scene_shapes.h"
 #include "workflows/scenes/scene_sheet.h"
+#include "workflows/scenes/scene_source.h"
 #include "workflows/scenes/scene_type_choice.h"
 #include "workflows/scenes/scene_weights.h"
 
@@ -157,6 +159,28 @@ void ValidateSampling(const SceneSamplingRequest& request) {
   }
   std::string error;
   if (!request.sampling.IsValid(&error)) throw core::Error("sampling: " + error);
+  for (const fs::path& folder : request.assets) RefuseOutputOver(folder, request.output);
+  for (const auto& [category, folder] : request.added) RefuseOutputOver(folder, request.output);
+}
+
+// Returns the vocabulary of the categories that samples have, in their order; all if they have no
+// objects.
+scene::Vocabulary UsedVocabulary(const std::vector<float>& tokens,
+                                 const scene::Vocabulary& vocabulary) {
+  const auto size = static_cast<size_t>(vocabulary.entries * vocabulary.TokenWidth());
+  std::set<std::string> used;
+  for (size_t at = 0; at < tokens.size(); at += size) {
+    for (const scene::SceneObject& object : DecodeScene(&tokens[at], vocabulary)) {
+      used.insert(object.category);
+    }
+  }
+  scene::Vocabulary some{vocabulary.type, vocabulary.entries, {}, {}};
+  for (size_t c = 0; c < vocabulary.categories.size(); ++c) {
+    if (used.count(vocabulary.categories[c]) == 0) continue;
+    some.categories.push_back(vocabulary.categories[c]);
+    some.welded.push_back(vocabulary.welded[c]);
+  }
+  return some.categories.empty() ? vocabulary : some;
 }
 
 void CheckSteps(int steps, const scene::SceneModelMetadata& metadata) {
@@ -164,6 +188,13 @@ void CheckSteps(int steps, const scene::SceneModelMetadata& metadata) {
   if (steps <= most) return;
   throw core::Error("the model samples in 1 to " + std::to_string(most) + " steps", "--steps",
                     "ask for fewer, or 0 for all");
+}
+
+void RefuseNoScenes(const SceneStatistics& statistics, const fs::path& output) {
+  if (statistics.scenes > 0) return;
+  throw core::Error("none of the " + std::to_string(statistics.attempts) +
+                        " sampled scenes has enough objects left after physics",
+                    output.string(), "give more --steps or --count, or --raw to see the samples");
 }
 
 // Sets what makes a model follow prompts: their words, if it reads any, and the counts. Throws
@@ -200,7 +231,7 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
   core::Findings findings;
   SceneSamplingRequest request = wanted;
   const RequestedPrompts requested = ReadPromptsAndTypes(
-      request.prompts, request.prompt_file, metadata.vocabulary, metadata.TypeNames(), &findings);
+      request.prompts, request.prompt_file, metadata.vocabulary, TypesToRead(metadata), &findings);
   const std::vector<scene::Prompt>& prompts = requested.prompts;
   const scene::SceneModel model = LoadWithAssets(
       request, weights, ChooseSceneType(metadata, request.type, requested, &findings));
@@ -208,10 +239,6 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
   const std::vector<std::string> texts = TextsOf(prompts);
   FollowPrompts(prompts, metadata.options, vocabulary, weights, &request, &findings);
   core::StagedFolder staged(request.output, request.force);
-  const scene::AssetSet asset_set =
-      scene::ReadAssetSet(GatherSceneAssets({vocabulary.categories, request.added, request.assets,
-                                             staged.staging() / "assets", &findings},
-                                            progress));
   SceneSamplingReport report;
   report.output = request.output;
   report.raw = request.raw;
@@ -219,16 +246,23 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
   auto start = Clock::now();
   const std::vector<float> tokens = model.Sample(request.count, request.sampling, progress);
   report.sampling_seconds = SamplingSeconds(start);
+  // A model of several types knows many categories, whose assets would take minutes to make.
+  const scene::Vocabulary written =
+      metadata.types.empty() ? vocabulary : UsedVocabulary(tokens, vocabulary);
+  const scene::AssetSet asset_set = scene::ReadAssetSet(GatherSceneAssets(
+      {written.categories, request.added, request.assets, staged.staging() / "assets", &findings},
+      progress));
   start = Clock::now();
   const std::vector<Sampled> scenes =
       FinishScenes(tokens, vocabulary, asset_set, prompts, request.raw, progress);
   report.physics_seconds = SamplingSeconds(start);
-  const scene::SceneShard part =
-      PartOf(scenes, vocabulary, texts, OriginOf(request, texts, weights));
+  const scene::SceneShard part = PartOf(scenes, written, texts, OriginOf(request, texts, weights));
   report.prompts = ReportsOf(prompts, ObjectsOf(scenes), asset_set.Sizes(), ValidOf(scenes));
   scene::WriteShard(part, staged.staging() / scene::ShardName(0));
   report.statistics = StatisticsOf(part.attempts);
+  RefuseNoScenes(report.statistics, request.output);
   report.statistics.type = vocabulary.type;
+  report.statistics.physics = !request.raw;
   report.statistics.findings = std::move(findings);
   if (!request.raw) {
     const core::Findings dropped = DroppedFindings(report.statistics);

@@ -130,7 +130,6 @@ class SceneSearchRun {
     }
     if (fs::exists(output)) core::RequireReplaceable(output);
     fs::remove_all(output);
-    fs::create_directories(output);
   }
 
   void GatherAssets() {
@@ -175,6 +174,12 @@ class SceneSearchRun {
   // Runs a search and saves its state on the way; returns false if it was interrupted.
   bool Search(const char* stage, const char* file, steering::SceneSearch* search) {
     const fs::path path = request_.output / file;
+    int before = 0;
+    const auto count = [&] {
+      report_.iterations_run += search->IterationCount() - before;
+      report_.model_seconds += search->model_seconds();
+      report_.physics_seconds += search->physics_seconds();
+    };
     try {
       if (request_.resume && fs::exists(path)) {
         search->Resume(steering::ReadSearchState(path, vocabulary(), settings_));
@@ -183,12 +188,15 @@ class SceneSearchRun {
       } else {
         search->Start();
       }
+      before = search->IterationCount();
       Iterate(stage, path, search);
     } catch (const core::Cancelled&) {
       if (search->best() < 0) throw;  // nothing to keep yet
+      count();
       Save(*search, path);
       return false;
     }
+    count();
     Save(*search, path);
     return true;
   }
@@ -210,9 +218,6 @@ class SceneSearchRun {
       }
       for (int i = count; i < search->IterationCount(); ++i) progress_->Advance();
     }
-    report_.iterations_run += search->IterationCount() - before;
-    report_.model_seconds += search->model_seconds();
-    report_.physics_seconds += search->physics_seconds();
   }
 
   int SearchBudget(const steering::SceneSearch& search) const {

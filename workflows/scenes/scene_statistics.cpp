@@ -34,6 +34,11 @@ std::string CountsTable(const SceneStatistics& statistics) {
   return text;
 }
 
+std::string ElsewhereText(const SceneStatistics& statistics) {
+  if (statistics.elsewhere == 0) return "";
+  return std::to_string(statistics.elsewhere) + " shards are being made by other workers\n";
+}
+
 }  // namespace
 
 core::Findings DroppedFindings(const SceneStatistics& statistics) {
@@ -52,6 +57,15 @@ core::Findings DroppedFindings(const SceneStatistics& statistics) {
 
 std::string StatisticsTable(const SceneStatistics& statistics) {
   char text[640];
+  if (!statistics.physics) {
+    std::snprintf(
+        text, sizeof text,
+        "%d scenes of %s, as sampled: without physics they interpenetrate and do not rest\n"
+        "objects: mean %.1f, at most %d\n",
+        statistics.scenes, statistics.type.c_str(), statistics.mean_objects,
+        statistics.most_objects);
+    return text + CountsTable(statistics) + ElsewhereText(statistics);
+  }
   std::snprintf(text, sizeof text,
                 "%d scenes of %s, %.1f %% of %d attempts, with %.1f %% of their objects kept\n"
                 "objects: mean %.1f (%.1f sampled), at most %d; %.2f dropped per scene\n"
@@ -65,15 +79,13 @@ std::string StatisticsTable(const SceneStatistics& statistics) {
     table += std::to_string(statistics.too_few) +
              " more are collision-free and stable, but have too few objects left\n";
   }
-  if (statistics.elsewhere > 0) {
-    table += std::to_string(statistics.elsewhere) + " shards are being made by other workers\n";
-  }
-  return table;
+  return table + ElsewhereText(statistics);
 }
 
 std::string StatisticsJson(const SceneStatistics& statistics) {
   core::OrderedJson json;
   json["type"] = statistics.type;
+  if (!statistics.physics) json["physics"] = false;
   json["scenes"] = statistics.scenes;
   json["attempts"] = statistics.attempts;
   json["too_few"] = statistics.too_few;

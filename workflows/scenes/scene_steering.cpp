@@ -341,13 +341,14 @@ void SceneSteering::FinishReports() {
       report.done += !object.kept && object.placed;
     }
     report.done -= static_cast<int>(report.returned.size());
-    report.stable = scene.stable();
+    report.stable = scene.stable() && scene.unstable().empty();
     report.kept_displacement = scene.kept_displacement();
     report.penetration = scene.penetration();
     report.drift = scene.drift();
     report.unstable = scene.unstable();
     report.statements = static_cast<int>(goal_.prompt.relations.size() + goal_.prompt.tiers.size());
     report.broken = scene.Broken(sizes_);
+    if (!request_.goal.rearrange) report.missing = scene.MissingNames();
   }
   core::Findings findings = source_assets_.UnknownFindings();
   report_.findings.insert(report_.findings.begin(), findings.begin(), findings.end());

@@ -38,10 +38,13 @@ struct SteeredSceneReport {
   double kept_displacement = 0.0;  // m, of a kept object once everything is free; in the file: 0
   double penetration = 0.0;        // m, the deepest of a pair with a new or moved object
   double drift = 0.0;              // m, the largest of a new or moved object in the check
+  // True if nothing moves by more than 1 mm once everything is free; false if kept objects are
+  // `unstable`, whatever the others do.
   bool stable = false;
-  std::vector<std::string> unstable;  // kept objects that move by themselves
+  std::vector<std::string> unstable;  // kept objects that move by themselves, and are held
   int statements = 0;                 // relations and tiers that the prompt asks for
   std::vector<std::string> broken;    // those that do not hold
+  std::vector<std::string> missing;   // names of objects to add without a place; any name: empty
   std::vector<std::string> returned;  // objects without a new pose, back at their old one
   std::vector<std::string> lost;      // objects of a rearrangement without any place
 };

@@ -41,7 +41,8 @@ core::Findings SteeringFindings(const std::vector<SteeredSceneReport>& scenes, b
     if (!rearrange && scene.done < scene.asked) {
       Add("objects-missing", scene,
           "only " + std::to_string(scene.done) + " of " + std::to_string(scene.asked) +
-              " objects found a place",
+              " objects found a place" +
+              (scene.missing.empty() ? "" : "; missing: " + CommaList(scene.missing)),
           scene.asked - scene.done, "give more --attempts or --candidates", &findings);
     }
     if (!scene.broken.empty()) {
@@ -59,7 +60,7 @@ core::Findings SteeringFindings(const std::vector<SteeredSceneReport>& scenes, b
           "these objects found no place and are left out: " + CommaList(scene.lost),
           count(scene.lost), "give more --attempts or --candidates", &findings);
     }
-    if (!scene.stable) {
+    if (!scene.stable && scene.unstable.empty()) {
       Add("scene-unstable", scene, "objects move by more than 1 mm once everything is free",
           std::max(scene.kept_displacement, scene.drift), "", &findings);
     }
@@ -70,7 +71,7 @@ core::Findings SteeringFindings(const std::vector<SteeredSceneReport>& scenes, b
 std::string SteeringTable(const SceneSteeringReport& report) {
   const auto count = static_cast<double>(report.scenes.size());
   SteeredSceneReport worst;
-  int stable = 0, statements = 0, held = 0;
+  int stable = 0, statements = 0, held = 0, unstable = 0;
   for (const SteeredSceneReport& scene : report.scenes) {
     worst.kept += scene.kept;
     worst.asked += scene.asked;
@@ -79,6 +80,7 @@ std::string SteeringTable(const SceneSteeringReport& report) {
     worst.kept_displacement = std::max(worst.kept_displacement, scene.kept_displacement);
     worst.penetration = std::max(worst.penetration, scene.penetration);
     stable += scene.stable;
+    unstable += static_cast<int>(scene.unstable.size());
     statements += scene.statements;
     held += scene.statements - static_cast<int>(scene.broken.size());
   }
@@ -94,6 +96,13 @@ std::string SteeringTable(const SceneSteeringReport& report) {
       stable, count, worst.attempts, report.seconds, report.model_seconds, report.asset_seconds,
       report.sampling_seconds, report.physics_seconds, report.picture_seconds);
   std::string table = text;
+  if (unstable > 0) {
+    std::snprintf(
+        text, sizeof text,
+        "%d kept objects, which these figures leave out, do not stay still by themselves\n",
+        unstable);
+    table += text;
+  }
   if (statements > 0) {
     std::snprintf(text, sizeof text, "%d of %d relations that the prompt asks for hold\n", held,
                   statements);
@@ -119,6 +128,7 @@ std::string SteeringJson(const SceneSteeringReport& report) {
     one["drift_mm"] = 1e3 * scene.drift;
     one["stable"] = scene.stable;
     one["unstable_kept"] = scene.unstable;
+    if (!report.rearrange) one["missing"] = scene.missing;
     if (scene.statements > 0) {
       one["relations"] = scene.statements;
       one["relations_broken"] = scene.broken;

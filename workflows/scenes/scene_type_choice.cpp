@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "scene/prompt/object_names.h"
 #include "scene/prompt/scene_type_words.h"
+#include "scene/scene_types/scene_types.h"
 
 namespace simwright::workflows {
 namespace {
@@ -24,12 +25,32 @@ int KnownNames(const scene::SceneModelType& type, const std::vector<scene::Promp
 
 }  // namespace
 
+std::vector<std::string> TypesToRead(const scene::SceneModelMetadata& metadata) {
+  std::vector<std::string> types = metadata.TypeNames();
+  for (const scene::SceneType& one : scene::SceneTypes()) {
+    if (std::find(types.begin(), types.end(), one.name) == types.end()) types.push_back(one.name);
+  }
+  return types;
+}
+
 std::string ChooseSceneType(const scene::SceneModelMetadata& metadata, const std::string& asked,
                             const RequestedPrompts& prompts, core::Findings* findings) {
+  const std::vector<std::string> known = metadata.TypeNames();
+  for (const std::string& one : prompts.types) {
+    const bool of_model = std::find(known.begin(), known.end(), one) != known.end();
+    const bool sampled = asked.empty() ? of_model : one == asked;
+    if (one.empty() || sampled) continue;
+    findings->push_back({"scene-type-ignored", core::Severity::kWarning, "prompt",
+                         "the prompt names another scene type, " + one +
+                             (asked.empty() ? ", which the model does not have" : "") +
+                             "; only its objects count"});
+    break;
+  }
   if (!asked.empty()) return metadata.OfType(asked).vocabulary.type;
   if (metadata.types.empty()) return metadata.vocabulary.type;
   std::string named;
   for (const std::string& one : prompts.types) {
+    if (std::find(known.begin(), known.end(), one) == known.end()) continue;
     if (!named.empty() && !one.empty() && one != named) {
       throw core::Error("the prompts name different scene types", named + ", " + one,
                         "sample them one after the other");

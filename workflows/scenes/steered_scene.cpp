@@ -245,6 +245,7 @@ int SteeredScene::Missing() const {
 }
 
 std::vector<std::string> SteeredScene::MissingNames() const {
+  if (!rearrange_) return NamesToAdd();
   std::vector<std::string> names;
   for (const size_t i : Waiting()) names.push_back(objects_[i].name);
   return names;

@@ -50,7 +50,8 @@ class SteeredScene {
   // Return the number of objects to add or rearrange, and of those that are still missing.
   int asked() const { return asked_; }
   int Missing() const;
-  std::vector<std::string> MissingNames() const;  // of rearranged objects
+  // Returns the names of the missing ones, one each; those to add have none if any name will do.
+  std::vector<std::string> MissingNames() const;
 
   // Returns the prompt of the scene with everything that is asked for, for a model that reads
   // prompts; empty if the goal has no names.
