@@ -163,7 +163,7 @@ void SceneCertifyCommand::RefusesWhatDoesNotFit() {
   expect(Certify(pantry, "sing a song", out), "not understood");
   expect(Certify(pantry, "bring the pear", out), "not understood");
   expect(Certify(pantry, "bring to the front", out), "not understood");
-  expect(Certify(pantry, "bring the aple to the front", out), "error: --task: ");
+  expect(Certify(pantry, "bring the aple to the front", out), "error: --task: nothing");
   expect(Certify(pantry, "bring the aple to the front", out), "apple");
   expect(Certify(pantry, "bring the teapot to the front", out), "the objects are");
   expect(Certify(pantry, "bring the 40th pear to the front", out), "no 40th pear");

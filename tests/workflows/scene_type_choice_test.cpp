@@ -7,14 +7,11 @@ namespace simwright::workflows {
 namespace {
 
 scene::SceneModelMetadata ModelOf(const std::vector<std::string>& types) {
-  scene::SceneModelMetadata metadata;
-  metadata.vocabulary.type = types.front();
+  const scene::PoseRange range({}, {});
+  scene::SceneModelMetadata metadata{{types.front(), 10, {}, {}}, {}, range};
   if (types.size() == 1) return metadata;
   for (const std::string& type : types) {
-    scene::SceneModelType one;
-    one.name = type;
-    one.categories = {"apple"};
-    metadata.types.push_back(one);
+    metadata.types.push_back({type, 10, range, 0, 0, {"apple"}});
   }
   return metadata;
 }

@@ -8,6 +8,7 @@
 #include "physics_params/wordnet.h"
 #include "scene/prompt/object_names.h"
 #include "scene/prompt/prompt_reading.h"
+#include "workflows/scenes/scene_prompts.h"
 
 namespace simwright::workflows {
 namespace {
@@ -55,9 +56,7 @@ scene::PromptReading ReadPhrase(const std::string& phrase, const std::vector<std
   try {
     return scene::ReadPrompt(phrase, names, physics_params::WordNet::Installed());
   } catch (const core::Error& error) {
-    const std::string line = error.what(), prefix = error.where() + ": ";
-    const bool has_place = !error.where().empty() && line.compare(0, prefix.size(), prefix) == 0;
-    throw core::Error(has_place ? line.substr(prefix.size()) : line, "--task");
+    throw core::Error(PromptErrorLine(error), "--task");
   }
 }
 

@@ -6,7 +6,6 @@
 #include <optional>
 #include <sstream>
 
-#include "core/error.h"
 #include "core/files.h"
 #include "physics_params/wordnet.h"
 #include "scene/prompt/object_names.h"
@@ -113,7 +112,7 @@ RequestedPrompts ReadPromptsAndTypes(const std::vector<std::string>& texts,
         reading = ReadPrompt(one.text, vocabulary, physics_params::WordNet::Installed());
       }
     } catch (const core::Error& error) {
-      throw core::Error(error.what(), one.place);
+      throw core::Error(PromptErrorLine(error), one.place);
     }
     for (core::Finding finding : reading.findings) {
       finding.place = one.place;
@@ -130,6 +129,11 @@ std::vector<scene::Prompt> ReadPrompts(const std::vector<std::string>& texts,
                                        const scene::Vocabulary& vocabulary,
                                        core::Findings* findings) {
   return ReadPromptsAndTypes(texts, file, vocabulary, {}, findings).prompts;
+}
+
+std::string PromptErrorLine(const core::Error& error) {
+  const std::string line = error.what(), place = "prompt: ";
+  return line.starts_with(place) ? line.substr(place.size()) : line;
 }
 
 std::vector<std::string> StatementsOf(const scene::Prompt& prompt) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/finding.h"
 #include "core/json.h"
 #include "scene/dataset/vocabulary.h"
@@ -34,6 +35,10 @@ std::vector<scene::Prompt> ReadPrompts(const std::vector<std::string>& texts,
                                        const std::filesystem::path& file,
                                        const scene::Vocabulary& vocabulary,
                                        core::Findings* findings);
+
+// Returns the line of an error of scene::ReadPrompt without the place "prompt", for an error that
+// names the option. A place within the prompt stays.
+std::string PromptErrorLine(const core::Error& error);
 
 // Returns the statements of a prompt as sentences, in the order of PromptAgreement::holds.
 std::vector<std::string> StatementsOf(const scene::Prompt& prompt);
