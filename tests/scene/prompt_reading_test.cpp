@@ -167,8 +167,8 @@ TEST(ReadPrompt, Statements) {
 
 TEST(ReadPrompt, StatementsThatAreLeftOutAreSaid) {
   EXPECT_TRUE(HasFinding(Reading("an apple on the ninth shelf"), "prompt-furniture", "ninth"));
-  EXPECT_TRUE(HasFinding(Reading("the apple is inside the apple"), "prompt-statement-ignored",
-                         "itself"));
+  EXPECT_TRUE(
+      HasFinding(Reading("the apple is inside the apple"), "prompt-statement-ignored", "itself"));
   EXPECT_FALSE(HasFinding(Reading("an apple on the top shelf"), "prompt-furniture", ""));
 }
 

@@ -219,10 +219,10 @@ void SceneSteeringCommand::SaysThatTheInputIsNotStable() {
   const json cup = {{"asset", "dimsum/assets/cup"}, {"translation", {0.2, 0.1, 0.83}}};
   const json poses = {
       {{"asset", "dimsum/assets/table_round"}, {"translation", {0, 0, 0}}}, cup, cup};
-  const Outcome made = RunProgram("scene complete " + Write("twice.json", poses.dump()) +
-                                      " --type dimsum --count 1 --steps 10 --json -o " +
-                                      At("twice"),
-                                  "/dev/null");
+  const Outcome made =
+      RunProgram("scene complete " + Write("twice.json", poses.dump()) +
+                     " --type dimsum --count 1 --steps 10 --json -o " + At("twice"),
+                 "/dev/null");
   EXPECT_EQ(made.code, 1) << made.text;
   const json scene = json::parse(made.text)["scenes"][0];
   EXPECT_FALSE(scene["stable"].get<bool>());
