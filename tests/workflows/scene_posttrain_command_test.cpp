@@ -137,7 +137,7 @@ void ScenePosttrainCommand::RefusesWhatDoesNotFit() {
       {data + "--largest-accuracy 0.4", "0.5 to 1"},
       {data + "--count 2", "at least 8"},
       {data + "--settled=-1", "--settled"},
-      {data + "--more-slots=-1", "entries"},
+      {data + "--more-slots=-1", "--more-slots"},
       {data + "--objective \"count(unicorn)\"", "unicorn"},
       {data + "--objective \"count(cup\"", "does not parse"},
       {data + "--objective \"count(cup)/0\"", "divisor"},
