@@ -145,7 +145,7 @@ TEST(TextConditioning, GuidanceExtrapolatesFromTheUnpromptedPrediction) {
     const torch::Tensor wanted = 2.5 * prompted.pose_noise - 1.5 * free.pose_noise;
     EXPECT_LT(Off(guided.pose_noise, wanted), 1e-4);
     EXPECT_LT(Off(guided.classes, 2.5 * prompted.classes - 1.5 * free.classes), 1e-4);
-    EXPECT_LT(Off(plain.pose_noise, prompted.pose_noise), 1e-5);
+    EXPECT_LT(Off(plain.pose_noise, prompted.pose_noise), 1e-4);
     // The second prompt is the empty one.
     EXPECT_LT(Off(guided.pose_noise[1], free.pose_noise[1]), 1e-4);
   });
