@@ -37,8 +37,8 @@ TEST(ScenePrompts, ReportsNameTheStatementsThatDoNotHold) {
   EXPECT_EQ(PromptJson(reports)[0]["relations_broken"].size(), 2u);
 }
 
-// Of the four scenes, in turn for the two prompts, one of the first and both of the second have all
-// that is named.
+// Scenes 0 and 2 belong to the first prompt, of which only scene 0 has all names, scenes 1 and 3 to
+// the second, and have its name.
 TEST(ScenePrompts, ReportsCountTheScenesWithEveryName) {
   const scene::Prompt cups{scene::PromptKind::kNames, {}, {{"mug", 2}, {"bowl", 1}}, true, {}, {}};
   const scene::Prompt mugs{scene::PromptKind::kNames, {}, {{"mug", 1}}, true, {}, {}};

@@ -52,7 +52,7 @@ struct PromptReport {
   int scenes = 0;
   double apf = 0.0;     // PromptAgreement::apf
   double strict = 0.0;  // share of scenes that agree exactly
-  int complete = 0;     // scenes with at least one object of each name that is asked for
+  int complete = 0;     // scenes with an object of each name asked for; without names all
   int statements = 0;   // relations and tiers that the prompt asks for
   double held = 0.0;    // share of them that hold
   // The statements that do not hold in every scene, and in how many they do not.

@@ -190,11 +190,25 @@ void CheckSteps(int steps, const scene::SceneModelMetadata& metadata) {
                     "ask for fewer, or 0 for all");
 }
 
+// Throws core::Error if physics has left no scene.
 void RefuseNoScenes(const SceneStatistics& statistics, const fs::path& output) {
   if (statistics.scenes > 0) return;
   throw core::Error("none of the " + std::to_string(statistics.attempts) +
                         " sampled scenes has enough objects left after physics",
                     output.string(), "give more --steps or --count, or --raw to see the samples");
+}
+
+SceneStatistics StatisticsWith(core::Findings findings, const scene::SceneShard& part,
+                               const SceneSamplingRequest& request) {
+  SceneStatistics statistics = StatisticsOf(part.attempts);
+  RefuseNoScenes(statistics, request.output);
+  statistics.type = part.vocabulary.type;
+  statistics.physics = !request.raw;
+  statistics.findings = std::move(findings);
+  if (request.raw) return statistics;
+  const core::Findings dropped = DroppedFindings(statistics);
+  statistics.findings.insert(statistics.findings.end(), dropped.begin(), dropped.end());
+  return statistics;
 }
 
 // Sets what makes a model follow prompts: their words, if it reads any, and the counts. Throws
@@ -239,6 +253,19 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
   const std::vector<std::string> texts = TextsOf(prompts);
   FollowPrompts(prompts, metadata.options, vocabulary, weights, &request, &findings);
   core::StagedFolder staged(request.output, request.force);
+  const auto gather = [&](const scene::Vocabulary& some) {
+    return scene::ReadAssetSet(GatherSceneAssets(
+        {some.categories, request.added, request.assets, staged.staging() / "assets", &findings},
+        progress));
+  };
+  // A model of several types knows many categories, whose assets would take minutes to make: only
+  // those that its samples have are made. The user's folders are read before, for their errors.
+  const bool several = !metadata.types.empty();
+  scene::AssetSet asset_set;
+  if (!several) asset_set = gather(vocabulary);
+  for (const fs::path& folder : request.assets) {
+    if (several) scene::FoldersForCategories(folder, vocabulary.categories);
+  }
   SceneSamplingReport report;
   report.output = request.output;
   report.raw = request.raw;
@@ -246,12 +273,8 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
   auto start = Clock::now();
   const std::vector<float> tokens = model.Sample(request.count, request.sampling, progress);
   report.sampling_seconds = SamplingSeconds(start);
-  // A model of several types knows many categories, whose assets would take minutes to make.
-  const scene::Vocabulary written =
-      metadata.types.empty() ? vocabulary : UsedVocabulary(tokens, vocabulary);
-  const scene::AssetSet asset_set = scene::ReadAssetSet(GatherSceneAssets(
-      {written.categories, request.added, request.assets, staged.staging() / "assets", &findings},
-      progress));
+  const scene::Vocabulary written = several ? UsedVocabulary(tokens, vocabulary) : vocabulary;
+  if (several) asset_set = gather(written);
   start = Clock::now();
   const std::vector<Sampled> scenes =
       FinishScenes(tokens, vocabulary, asset_set, prompts, request.raw, progress);
@@ -259,16 +282,7 @@ SceneSamplingReport SampleScenes(const SceneSamplingRequest& wanted, core::Progr
   const scene::SceneShard part = PartOf(scenes, written, texts, OriginOf(request, texts, weights));
   report.prompts = ReportsOf(prompts, ObjectsOf(scenes), asset_set.Sizes(), ValidOf(scenes));
   scene::WriteShard(part, staged.staging() / scene::ShardName(0));
-  report.statistics = StatisticsOf(part.attempts);
-  RefuseNoScenes(report.statistics, request.output);
-  report.statistics.type = vocabulary.type;
-  report.statistics.physics = !request.raw;
-  report.statistics.findings = std::move(findings);
-  if (!request.raw) {
-    const core::Findings dropped = DroppedFindings(report.statistics);
-    report.statistics.findings.insert(report.statistics.findings.end(), dropped.begin(),
-                                      dropped.end());
-  }
+  report.statistics = StatisticsWith(std::move(findings), part, request);
   core::WriteFile(staged.staging() / "statistics.json", StatisticsJson(report.statistics));
   WriteSceneSheet(scene::SceneDataset(staged.staging()), asset_set,
                   staged.staging() / "scenes.png");
