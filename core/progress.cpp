@@ -65,8 +65,8 @@ std::string ProgressLine(const ProgressState& state) {
 // The current stage, and the thread that redraws it between steps. All members are guarded by
 // `mutex`.
 struct Progress::Shared {
-  Shared(Style drawn, double interval, const std::atomic<int>& steps)
-      : style(drawn), seconds(interval), done(steps) {
+  Shared(Style drawn_as, double interval, ProgressListener told, const std::atomic<int>& steps)
+      : style(drawn_as), seconds(interval), listener(std::move(told)), done(steps) {
     // Block signals in the redraw thread: they must wake the working thread where it waits.
     sigset_t all, before;
     sigfillset(&all);
@@ -97,6 +97,11 @@ struct Progress::Shared {
     now.done = done;
     now.elapsed = SecondsSince(start);
     if (now.most_left) *now.most_left -= SecondsSince(said);
+    drawn = Clock::now();
+    if (style == Style::kListener) {
+      listener(now);
+      return;
+    }
     const std::string line = ProgressLine(now);
     if (style == Style::kTerminal) {
       std::fprintf(stderr, "\r\033[K%s", line.c_str());
@@ -104,11 +109,11 @@ struct Progress::Shared {
       std::fprintf(stderr, "%s\n", line.c_str());
     }
     std::fflush(stderr);
-    drawn = Clock::now();
   }
 
   const Style style;
   const double seconds;
+  const ProgressListener listener;
   const std::atomic<int>& done;
   std::mutex mutex;
   std::condition_variable changed;
@@ -132,6 +137,10 @@ bool CancelRequested() {
   return cancel_requested != 0;
 }
 
+void ClearCancelRequest() {
+  cancel_requested = 0;
+}
+
 void CheckCancelled() {
   if (CancelRequested()) throw Cancelled();
 }
@@ -139,7 +148,11 @@ void CheckCancelled() {
 Progress::Progress(Style style, double plain_interval) : style_(style) {
   if (style_ == Style::kSilent) return;
   const double interval = style_ == Style::kTerminal ? kTerminalInterval : plain_interval;
-  shared_ = std::make_unique<Shared>(style_, interval, done_);
+  shared_ = std::make_unique<Shared>(style_, interval, ProgressListener(), done_);
+}
+
+Progress::Progress(ProgressListener listener, double interval) : style_(Style::kListener) {
+  shared_ = std::make_unique<Shared>(style_, interval, std::move(listener), done_);
 }
 
 Progress::~Progress() {
@@ -162,7 +175,7 @@ void Progress::Stage(const std::string& name, int total) {
     shared_->state.total = total;
     shared_->start = shared_->said = Clock::now();
     ++shared_->stages;
-    if (style_ == Style::kTerminal) shared_->Draw();
+    if (style_ != Style::kPlain) shared_->Draw();
   }
   shared_->changed.notify_all();
 }
@@ -178,7 +191,7 @@ void Progress::Say(const std::string& detail, std::optional<double> most_left) {
 void Progress::Advance() {
   CheckCancelled();
   ++done_;
-  if (style_ != Style::kTerminal) return;
+  if (style_ != Style::kTerminal && style_ != Style::kListener) return;
   const std::lock_guard lock(shared_->mutex);
   if (SecondsSince(shared_->drawn) >= kShortestInterval) shared_->Draw();
 }
@@ -187,6 +200,12 @@ void Progress::Finish() {
   if (!shared_) return;
   const std::lock_guard lock(shared_->mutex);
   if (shared_->state.name.empty()) return;
+  if (style_ == Style::kListener) {
+    shared_->Draw();  // the last count
+    shared_->state = {};
+    shared_->listener(shared_->state);
+    return;
+  }
   if (style_ == Style::kTerminal) std::fprintf(stderr, "\r\033[K");
   std::fprintf(stderr, "%s: %.1f s\n", shared_->state.name.c_str(), SecondsSince(shared_->start));
   shared_->state = {};

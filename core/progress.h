@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,16 +23,22 @@ struct ProgressState {
 // shows the elapsed time.
 std::string ProgressLine(const ProgressState& state);
 
+// Receives the state of a stage; one whose `name` is empty ends the stage. Called from the working
+// thread and from a thread that the Progress owns, one call at a time; must not throw.
+using ProgressListener = std::function<void(const ProgressState&)>;
+
 // Reports the progress of long work to stderr. On a terminal it redraws one line with the remaining
 // time; elsewhere it prints a plain line every ten seconds and one at the end of a stage. kSilent
-// prints nothing. Long work also notices Ctrl-C here: every call that advances may throw
-// core::Cancelled.
+// prints nothing, kListener calls a function instead. Long work also notices Ctrl-C here: every
+// call that advances may throw core::Cancelled.
 class Progress {
  public:
-  enum class Style { kSilent, kPlain, kTerminal };
+  enum class Style { kSilent, kPlain, kTerminal, kListener };
 
   // `plain_interval`: seconds between two plain lines of a stage.
   explicit Progress(Style style = Style::kSilent, double plain_interval = 10.0);
+  // Passes the state to `listener`, at most once per `interval` seconds, and at the end of a stage.
+  explicit Progress(ProgressListener listener, double interval = 0.2);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -61,6 +68,8 @@ class Progress {
 void InstallCancelHandler();
 void RequestCancel();
 bool CancelRequested();
+// Forgets the request, so that later work runs: for programs that go on after they were stopped.
+void ClearCancelRequest();
 // Throws core::Cancelled after RequestCancel().
 void CheckCancelled();
 

@@ -76,8 +76,9 @@ void Episode::StartPlan() {
   frame_ = std::make_unique<manipulation::TargetFrame>(
       variant, state_, world_from_base * grasp_configuration.linear().col(1), start_.pitch,
       start_.retreat);
-  command_.goal = frame_->retreating() ? start_.arm : start_.grasp_configuration;
-  command_.waypoints = frame_->retreating() ? manipulation::JointPath() : start_.waypoints;
+  const bool planned = FollowsPlan(skill_.options.action) && !frame_->retreating();
+  command_.goal = planned ? start_.grasp_configuration : start_.arm;
+  command_.waypoints = planned ? start_.waypoints : manipulation::JointPath();
   along_ = manipulation::ConfigurationsAlongJoint(skill_, variant, state_,
                                                   start_.grasp_configuration, start_.pitch);
   if (frame_->at_destination()) PlanArrival();
@@ -124,6 +125,7 @@ void Episode::Act(const ToolTarget& target) {
 void Episode::PlanArrival() {
   arrival_.resize(0);
   command_.pace = 1.0;
+  if (!FollowsPlan(skill_.options.action)) return;
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
   if (manipulation::DisplacementToDestination(variant, state_).norm() < kFarDestination) return;
   manipulation::CarryTask task;
@@ -165,6 +167,9 @@ float Episode::Reward(bool* success) {
 }
 
 Decision Episode::Step(const float* action) {
+  if (!std::all_of(action, action + action_.size(), [](float a) { return std::isfinite(a); })) {
+    return {.truncated = true, .failed = true, .invalid_action = true};
+  }
   for (size_t a = 0; a < action_.size(); ++a) action_[a] = std::clamp(action[a], -1.0f, 1.0f);
   const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
   ActionFrame work;
@@ -199,7 +204,7 @@ Decision Episode::Step(const float* action) {
   if (frame_->at_destination() && !was_there) PlanArrival();
   if (plan_count_ < kMostPlans && IsAtPlansEnd()) Replan();
   UpdateRestConfiguration();
-  if (withdrew && !frame_->retreating()) {
+  if (FollowsPlan(skill_.options.action) && withdrew && !frame_->retreating()) {
     command_.goal = start_.grasp_configuration;
     command_.waypoints = start_.waypoints;
   }

@@ -18,10 +18,11 @@ namespace simwright::skills {
 // The outcome of one decision.
 struct Decision {
   float reward = 0.0f;
-  bool success = false;     // in the current state
-  bool terminated = false;  // success has held for options.hold_seconds
-  bool truncated = false;   // the time limit is reached, or the physics has failed
-  bool failed = false;      // the physics has failed
+  bool success = false;         // in the current state
+  bool terminated = false;      // success has held for options.hold_seconds
+  bool truncated = false;       // the time limit is reached, or the episode has failed
+  bool failed = false;          // the physics has failed, or the action was invalid
+  bool invalid_action = false;  // the action was not finite; the world has not moved
 };
 
 // One episode of a skill: a world and the interface between it and a policy. Mutable; one thread at
@@ -33,7 +34,7 @@ class Episode {
   ~Episode();
 
   void Begin(const StartState& start);
-  // Executes `action` (A), clamped to [-1, 1].
+  // Executes `action` (A), clamped to [-1, 1]. An action that is not finite fails the episode.
   Decision Step(const float* action);
   // Sets a function that is called after each control step; may be empty.
   void SetStepListener(std::function<void(const Episode&)> watch) { watch_ = std::move(watch); }

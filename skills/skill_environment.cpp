@@ -97,6 +97,8 @@ void SkillEnvironment::StepOne(size_t index, const rl::Rows& actions, rl::StepBa
   batch->terminated[index] = decision.terminated;
   batch->truncated[index] = decision.truncated;
   batch->success[index] = decision.terminated;  // held, not only reached
+  invalid_actions_[index] = decision.invalid_action;
+  failed_physics_[index] = decision.failed && !decision.invalid_action;
   if (decision.failed) {
     ++instance.failures;
     instance.failed = instance.number;
@@ -117,6 +119,8 @@ void SkillEnvironment::Step(const rl::Rows& actions, rl::StepBatch* batch) {
   batch->terminated.resize(count);
   batch->truncated.resize(count);
   batch->success.resize(count);
+  invalid_actions_.resize(count);
+  failed_physics_.resize(count);
   ForEach([&](size_t i) { StepOne(i, actions, batch); });
 }
 

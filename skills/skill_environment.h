@@ -37,7 +37,11 @@ class SkillEnvironment : public rl::VectorEnvironment {
   std::string SaveState() const override;
   void RestoreState(std::string_view state, rl::Rows* observations) override;
 
-  // Returns the number of decisions with non-finite physics; they end their episode.
+  // Returns which episodes the last Step ended because of an action that was not finite (N flags),
+  // and because of non-finite physics.
+  const std::vector<std::uint8_t>& invalid_actions() const { return invalid_actions_; }
+  const std::vector<std::uint8_t>& failed_physics() const { return failed_physics_; }
+  // Returns the number of decisions with non-finite physics or actions; they end their episode.
   std::int64_t failures() const;
   // Returns the data that reproduce the last failure: "environment 3, episode 17, seed 5"; empty
   // without any.
@@ -66,6 +70,7 @@ class SkillEnvironment : public rl::VectorEnvironment {
   std::vector<StartState> pool_;
   std::function<double(const StartState&)> share_of_end_;
   std::vector<Instance> instances_;
+  std::vector<std::uint8_t> invalid_actions_, failed_physics_;  // (N)
   int observation_size_ = 0, action_size_ = 0;
   std::uint64_t seed_ = 0;
 };

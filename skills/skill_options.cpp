@@ -20,7 +20,7 @@ bool IsShare(double share) {
 constexpr std::pair<ActionSpace, const char*> kActionSpaces[] = {
     {ActionSpace::kTargetFrame, "focus"}, {ActionSpace::kGuided, "guided"},
     {ActionSpace::kAbsolute, "absolute"}, {ActionSpace::kDelta, "delta"},
-    {ActionSpace::kJoints, "joints"},
+    {ActionSpace::kJoints, "joints"},     {ActionSpace::kJointTargets, "joint_targets"},
 };
 
 }  // namespace
@@ -39,6 +39,14 @@ ActionSpace ActionSpaceOf(const std::string& name) {
     names += (names.empty() ? "" : ", ") + std::string(known);
   }
   throw core::Error("there is no action space '" + name + "'", "", "it is one of " + names);
+}
+
+bool CommandsJoints(ActionSpace space) {
+  return space == ActionSpace::kJoints || space == ActionSpace::kJointTargets;
+}
+
+bool FollowsPlan(ActionSpace space) {
+  return space == ActionSpace::kTargetFrame || space == ActionSpace::kGuided;
 }
 
 int SkillOptions::decisions() const {

@@ -18,12 +18,20 @@ enum class ActionSpace {
   kDelta,
   // The displacement of each arm joint from its last command; then the opening.
   kJoints,
+  // The position of each arm joint: -1 is its lower limit, 1 its upper one; then the opening.
+  kJointTargets,
 };
 
-// Returns "focus", "guided", "absolute", "delta", "joints", and the inverse. The latter throws
-// core::Error, listing them.
+// Returns "focus", "guided", "absolute", "delta", "joints", "joint_targets", and the inverse. The
+// latter throws core::Error, listing them.
 std::string NameOf(ActionSpace space);
 ActionSpace ActionSpaceOf(const std::string& name);
+
+// Returns true for the spaces whose actions are about arm joints.
+bool CommandsJoints(ActionSpace space);
+// Returns true for the spaces in which the arm follows a planned path around obstacles until its
+// last waypoint. In the others the action alone moves the arm.
+bool FollowsPlan(ActionSpace space);
 
 // The range of a factor that is sampled uniformly in its logarithm.
 struct FactorRange {

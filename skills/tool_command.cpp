@@ -167,7 +167,7 @@ void MoveFingers(const Skill& skill, double target, ArmCommand* command) {
 }  // namespace
 
 int ActionSize(const Skill& skill) {
-  return skill.options.action == ActionSpace::kJoints ? skill.robot->arm.size() + 1 : 7;
+  return CommandsJoints(skill.options.action) ? skill.robot->arm.size() + 1 : 7;
 }
 
 ToolTarget ActionTarget(const Skill& skill, const float* action, const ActionFrame& frame,
@@ -213,6 +213,14 @@ ToolTarget ActionTarget(const Skill& skill, const float* action, const ActionFra
         target.joints[j] = std::clamp(command.sent[j] + step * action[j], joint.lower, joint.upper);
       }
       break;
+    case ActionSpace::kJointTargets:
+      target.joints = command.sent;
+      for (Eigen::Index j = 0; j < target.joints.size(); ++j) {
+        const robot::ArmJoint& joint = skill.robot->arm.joints[static_cast<size_t>(j)];
+        target.joints[j] =
+            0.5 * (joint.lower + joint.upper + action[j] * (joint.upper - joint.lower));
+      }
+      break;
   }
   return target;
 }
@@ -224,7 +232,7 @@ void StepCommand(const Skill& skill, const ToolTarget& target, const robot::Join
       (waypoints.front() - command->sent).lpNorm<Eigen::Infinity>() < kPassed) {
     waypoints.erase(waypoints.begin());
   }
-  if (skill.options.action == ActionSpace::kJoints) {
+  if (CommandsJoints(skill.options.action)) {
     command->goal = target.joints;
   } else if (waypoints.empty()) {  // until then the goal stays the planned configuration
     const robot::JointVector jump = robot::JointVector::Constant(actual.size(), kGoalJump);

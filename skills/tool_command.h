@@ -13,7 +13,7 @@ namespace simwright::skills {
 // The command of the last action.
 struct ToolTarget {
   Eigen::Isometry3d base_from_tool = Eigen::Isometry3d::Identity();
-  robot::JointVector joints;  // (J), with ActionSpace::kJoints
+  robot::JointVector joints;  // (J), with ActionSpace::kJoints and kJointTargets
   double leader = 0.0;        // position of the gripper's first joint
 };
 

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <csignal>
+#include <type_traits>
+
+#include <nanobind/nanobind.h>
+
+#include "core/progress.h"
+
+namespace simwright::python {
+
+namespace nb = nanobind;
+
+// While this object lives, Ctrl-C asks running work to stop (core::RequestCancel) and then reaches
+// Python's own handler. Nothing changes where SIGINT is ignored, or in a second scope.
+class InterruptScope {
+ public:
+  InterruptScope();
+  ~InterruptScope();
+  InterruptScope(const InterruptScope&) = delete;
+  InterruptScope& operator=(const InterruptScope&) = delete;
+
+ private:
+  bool installed_ = false;
+};
+
+// Returns the listener that calls `report(name, detail, done, total, elapsed)` with the GIL held;
+// a name of "" ends a stage. An exception of `report` is printed, not thrown. `report` must outlive
+// the listener.
+core::ProgressListener ListenerOf(nb::handle report);
+
+// Runs work(core::Progress*) without the GIL. `report` is None (no progress) or a function for
+// ListenerOf. Ctrl-C ends the work with core::Cancelled, which Python sees as KeyboardInterrupt.
+template <typename Work>
+auto RunLong(const nb::object& report, const Work& work) {
+  const InterruptScope scope;
+  const core::ProgressListener listener =
+      report.is_none() ? core::ProgressListener() : ListenerOf(report);
+  const nb::gil_scoped_release released;
+  if (!listener) {
+    core::Progress silent;
+    return work(&silent);
+  }
+  core::Progress progress(listener);
+  return work(&progress);
+}
+
+// Makes Python raise simwright.Error for core::Error and KeyboardInterrupt for core::Cancelled, and
+// adds the exceptions to `module`.
+void BindErrors(nb::module_& module);
+
+}  // namespace simwright::python

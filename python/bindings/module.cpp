@@ -1,0 +1,28 @@
+#include <nanobind/nanobind.h>
+
+#include "bindings.h"
+#include "calls.h"
+#include "core/parallel.h"
+
+// The compiled half of the package: thin functions on plain values. python/simwright/ gives them
+// their public names.
+NB_MODULE(_core, module) {
+  namespace nb = nanobind;
+  using nb::literals::operator""_a;
+  using namespace simwright;  // NOLINT(google-build-using-namespace)
+  module.attr("__version__") = SIMWRIGHT_VERSION;
+  python::BindErrors(module);
+  module.def("set_threads", &core::SetThreadCount, "count"_a,
+             "Sets the number of threads for long work; 0: all that this process may use.");
+  module.def("threads", &core::ThreadCount, "Returns the number of threads for long work.");
+  python::BindMeshes(module);
+  python::BindAssets(module);
+  python::BindGeometry(module);
+  python::BindRendering(module);
+  python::BindPhysics(module);
+  python::BindRewards(module);
+  python::BindTasks(module);
+  python::BindSkills(module);
+  python::BindEnvironments(module);
+  python::BindScenes(module);
+}

@@ -1,0 +1,112 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "bindings.h"
+#include "calls.h"
+#include "core/error.h"
+#include "reports.h"
+#include "workflows/skills/skill_export.h"
+#include "workflows/skills/skill_rollout.h"
+#include "workflows/skills/skill_training.h"
+#include "workflows/tasks/task_making.h"
+
+namespace simwright::python {
+namespace {
+
+using nb::literals::operator""_a;
+namespace fs = std::filesystem;
+
+nb::object MakeTasks(const std::vector<std::string>& assets, const fs::path& output, int count,
+                     std::uint64_t seed, bool force, const nb::object& report) {
+  workflows::TasksRequest request;
+  request.assets = assets;
+  request.output = output;
+  request.count = count;
+  request.seed = seed;
+  request.force = force;
+  return FromJson(workflows::TasksJson(RunLong(report, [&](core::Progress* progress) {
+    return workflows::MakeTasks(request, progress);
+  })));
+}
+
+nb::object TrainTask(const fs::path& file, const std::vector<std::string>& tasks,
+                     const fs::path& output, const std::string& robot,
+                     const std::string& action_space, int environments, std::int64_t samples,
+                     double minutes, std::int64_t imitated_samples, int episodes,
+                     std::uint64_t seed, bool resume, const nb::object& report) {
+  workflows::TrainRequest request;
+  request.task_file = file;
+  request.tasks = tasks;
+  request.output = output;
+  request.robot = robot;
+  request.action = skills::ActionSpaceOf(action_space);
+  request.environments = environments;
+  request.samples = samples;
+  request.minutes = minutes;
+  request.imitated_samples = imitated_samples;
+  request.episodes = episodes;
+  request.seed = seed;
+  request.resume = resume;
+  return FromJson(workflows::TrainJson(RunLong(report, [&](core::Progress* progress) {
+    return workflows::TrainTask(request, progress);
+  })));
+}
+
+nb::object Rollout(const fs::path& run, int episodes, std::uint64_t seed, const fs::path& on,
+                   const std::vector<std::string>& tasks, const fs::path& pictures,
+                   const nb::object& report) {
+  workflows::RolloutRequest request;
+  request.run = run;
+  request.episodes = episodes;
+  request.seed = seed;
+  request.on = on;
+  request.tasks = tasks;
+  request.pictures = pictures;
+  return FromJson(workflows::RolloutJson(RunLong(report, [&](core::Progress* progress) {
+    return workflows::Rollout(request, progress);
+  })));
+}
+
+nb::object ExportRun(const fs::path& run, const fs::path& output, const std::string& format,
+                     int episodes, std::uint64_t seed, bool force, const nb::object& report) {
+  workflows::ExportRequest request;
+  request.run = run;
+  request.output = output;
+  request.episodes = episodes;
+  request.seed = seed;
+  request.force = force;
+  if (format == "csv") {
+    request.format = workflows::ExportFormat::kCsv;
+  } else if (format == "robomimic") {
+    request.format = workflows::ExportFormat::kRobomimic;
+  } else if (format != "ros2") {
+    throw core::Error("is '" + format + "'", "format", "give ros2, csv or robomimic");
+  }
+  return FromJson(workflows::ExportJson(RunLong(report, [&](core::Progress* progress) {
+    return workflows::Export(request, progress);
+  })));
+}
+
+}  // namespace
+
+void BindTasks(nb::module_& module) {
+  module.def("make_tasks", &MakeTasks, "assets"_a, "output"_a, "count"_a, "seed"_a, "force"_a,
+             "report"_a = nb::none());
+  module.def("train_task", &TrainTask, "file"_a, "tasks"_a, "output"_a, "robot"_a,
+             "action_space"_a, "environments"_a, "samples"_a, "minutes"_a, "imitated_samples"_a,
+             "episodes"_a, "seed"_a, "resume"_a, "report"_a = nb::none());
+  module.def("rollout", &Rollout, "run"_a, "episodes"_a, "seed"_a, "on"_a, "tasks"_a, "pictures"_a,
+             "report"_a = nb::none());
+  module.def("export_run", &ExportRun, "run"_a, "output"_a, "format"_a, "episodes"_a, "seed"_a,
+             "force"_a, "report"_a = nb::none());
+}
+
+}  // namespace simwright::python
