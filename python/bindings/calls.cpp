@@ -2,6 +2,8 @@
 
 #include <atomic>
 
+#include <nanobind/stl/string.h>
+
 #include "core/error.h"
 
 namespace simwright::python {

@@ -10,6 +10,8 @@ NB_MODULE(_core, module) {
   namespace nb = nanobind;
   using nb::literals::operator""_a;
   using namespace simwright;  // NOLINT(google-build-using-namespace)
+  // torch keeps what its graphs hold until the process ends: no leak of ours.
+  nb::set_leak_warnings(false);
   module.attr("__version__") = SIMWRIGHT_VERSION;
   python::BindErrors(module);
   module.def("set_threads", &core::SetThreadCount, "count"_a,

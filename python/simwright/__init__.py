@@ -1,0 +1,61 @@
+"""Simwright: photos and meshes become assets, tasks, trained robot skills and scenes.
+
+Everything is in SI units; the world is right-handed with z up; poses are (4, 4) matrices that take
+coordinates of the object to the world. Functions that work for long take ``progress`` (True: a bar
+on a terminal or in a notebook), release the GIL and stop on Ctrl-C with KeyboardInterrupt. What goes
+wrong raises ``simwright.Error``, a sentence with what, where and what to do.
+"""
+
+import os as _os
+import sys as _sys
+from pathlib import Path as _Path
+
+_FOLDER = _Path(__file__).absolute().parent
+# The program looks for its weights in this folder; the variable wins, as for the command.
+if "SIMWRIGHT_MODELS" not in _os.environ and (_FOLDER / "models").is_dir():
+    _os.environ["SIMWRIGHT_MODELS"] = str(_FOLDER / "models")
+
+try:
+    from . import _core
+except ImportError as error:
+    _built_for = sorted(path.name for path in _FOLDER.glob("_core*.so"))
+    if not _built_for:
+        raise ImportError(
+            f"simwright: the compiled module is missing in {_FOLDER} (install the package: pip install .)"
+        ) from error
+    if not any(name.endswith(_suffix) for name in _built_for
+               for _suffix in __import__("importlib.machinery").machinery.EXTENSION_SUFFIXES):
+        _version = ".".join(map(str, _sys.version_info[:2]))
+        raise ImportError(
+            f"simwright: {_built_for[0]} is for another Python than this one, {_version} "
+            "(install the package with this Python: pip install .)"
+        ) from error
+    raise
+
+Error = _core.Error
+Error.__module__ = __name__
+Finding = _core.Finding
+Mesh = _core.Mesh
+TexturedMesh = _core.TexturedMesh
+__version__ = _core.__version__
+
+from . import assets, geometry, physics, render, rewards, scenes, skills, tasks  # noqa: E402
+from ._arguments import mesh  # noqa: E402
+from ._progress import set_progress  # noqa: E402
+
+set_threads = _core.set_threads
+threads = _core.threads
+
+try:
+    import gymnasium as _gymnasium
+except ImportError:
+    _gymnasium = None
+if _gymnasium is not None:
+    from .envs import register_envs as _register_envs
+
+    _register_envs()
+
+__all__ = [
+    "Error", "Finding", "Mesh", "TexturedMesh", "assets", "geometry", "mesh", "physics", "render",
+    "rewards", "scenes", "set_progress", "set_threads", "skills", "tasks", "threads",
+]

@@ -1,0 +1,124 @@
+"""Assets: reading, importing, lifting from photos, generating and checking them."""
+
+from os import fspath
+
+from . import _core
+from ._core import ArticulatedAsset, Asset, Link
+from ._progress import reporter
+
+__all__ = ["ArticulatedAsset", "Asset", "Link", "check", "import_assets", "library", "library_kinds",
+           "lift", "read"]
+
+
+def read(folder):
+    """Reads an asset folder.
+
+    Args:
+        folder (path): as ``lift``, ``import_assets`` and ``library`` write it.
+
+    Returns:
+        Asset or ArticulatedAsset.
+
+    Raises:
+        Error: if asset.json is missing, malformed, or names a missing mesh.
+    """
+    return _core.read_asset(fspath(folder))
+
+
+def import_assets(inputs, output, category="", up="", unit=0.0, height=0.0, seed=1, check=True,
+                  force=False, progress=None):
+    """Imports meshes, URDFs, ROS packages and catalogues as asset folders.
+
+    Args:
+        inputs (path or list of paths): files, or folders that are searched.
+        output (path): each asset becomes output/NAME.
+        category (str): for mass and friction; empty: from the file's name.
+        up (str): "x", "y" or "z"; empty: stated by the file or found.
+        unit (float): metres per file unit; 0: found.
+        height (float): m, scales to this height; 0: does not scale.
+        seed (int): of the sampled parameters.
+        check (bool): checks each asset and refuses one that fails.
+        force (bool): replaces existing folders.
+        progress: see ``simwright``.
+
+    Returns:
+        list of dict: ``name``, ``folder`` (None if refused), ``refusal``, ``grade``, ``findings``.
+
+    Raises:
+        Error: for an input that does not exist or holds nothing to import, or an existing output.
+    """
+    if isinstance(inputs, (str, bytes)) or hasattr(inputs, "__fspath__"):
+        inputs = [inputs]
+    return _core.import_assets([fspath(path) for path in inputs], fspath(output), category, up,
+                               float(unit), float(height), int(seed), bool(check), bool(force),
+                               reporter(progress))
+
+
+def lift(photo, category, output, mask=None, shape="auto", fast=False, height=0.0, seed=1,
+         force=False, progress=None):
+    """Reconstructs an asset folder from one photo.
+
+    Args:
+        photo (path): the picture of one object.
+        category (str): what it shows, such as "mug".
+        output (path): the asset folder to write.
+        mask (path): a picture that is white where the object is; None: it is segmented.
+        shape (str): "auto", "fitted" (an object of the library) or "free".
+        fast (bool): a quick reconstruction of lower quality.
+        height (float): m; 0: sampled from the category's range.
+        seed (int): of sampled sizes and masses.
+        force (bool): replaces an existing folder.
+        progress: see ``simwright``.
+
+    Returns:
+        dict: ``folder``, ``silhouette_iou`` (agreement with the photo's outline), ``findings``.
+
+    Raises:
+        Error: if the photo cannot be read, no object stands out, or the output exists.
+    """
+    return _core.lift(fspath(photo), category, fspath(output), None if mask is None else fspath(mask),
+                      shape, bool(fast), float(height), int(seed), bool(force), reporter(progress))
+
+
+def library_kinds():
+    """Returns the kinds of parametric assets: name to description (dict)."""
+    return _core.library_kinds()
+
+
+def library(kind, output, count=1, seed=1, check=True, force=False, progress=None):
+    """Makes parametric assets, articulated and rigid.
+
+    Args:
+        kind (str): one of ``library_kinds()``, or several separated by commas.
+        output (path): each asset becomes output/KIND_SEED.
+        count (int): assets per kind, with consecutive seeds.
+        seed (int): of the first.
+        check (bool): checks each asset and refuses one that fails.
+        force (bool): replaces existing folders.
+        progress: see ``simwright``.
+
+    Returns:
+        list of dict: ``name``, ``kind``, ``folder`` (None if refused), ``refusal``, ``grade``,
+        ``findings``.
+
+    Raises:
+        Error: for an unknown kind, a count below 1, or an existing output.
+    """
+    return _core.make_library(kind, int(count), int(seed), fspath(output), bool(check), bool(force),
+                              reporter(progress))
+
+
+def check(path, progress=None):
+    """Checks an asset folder or a URDF: geometry, inertia, file readers, a drop test, joints.
+
+    Args:
+        path (path): an asset folder, or a URDF of any origin.
+        progress: see ``simwright``.
+
+    Returns:
+        dict: ``passed``, ``grade``, and one result per property, as ``simwright check --json``.
+
+    Raises:
+        Error: if the path does not exist or cannot be read at all.
+    """
+    return _core.check(fspath(path), reporter(progress))

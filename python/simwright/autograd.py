@@ -1,0 +1,74 @@
+"""The differentiable renderer as a torch function: gradients reach vertices, colours and light."""
+
+import numpy as np
+import torch
+
+from . import _core
+
+__all__ = ["render"]
+
+
+def _array(tensor, dtype):
+    return np.ascontiguousarray(tensor.detach().cpu().numpy(), dtype=dtype)
+
+
+class _Render(torch.autograd.Function):
+    @staticmethod
+    def forward(context, renderer, camera, seed, vertices, colors, light):
+        renderer.set_vertices(_array(vertices, np.float64))
+        if colors is not None:
+            renderer.set_colors(_array(colors, np.float64))
+        if light is not None:
+            renderer.set_light(_array(light, np.float64))
+        images = renderer.render(camera, seed)
+        context.renderer, context.camera, context.seed = renderer, camera, seed
+        context.save_for_backward(vertices, colors, light)
+        context.images = renderer._torch_images = getattr(renderer, "_torch_images", 0) + 1
+        return tuple(torch.from_numpy(images[name]) for name in ("color", "mask", "depth"))
+
+    @staticmethod
+    def backward(context, color, mask, depth):
+        vertices, colors, light = context.saved_tensors
+        renderer = context.renderer
+        if context.images != renderer._torch_images:  # another image was rendered since
+            renderer.set_vertices(_array(vertices, np.float64))
+            if colors is not None:
+                renderer.set_colors(_array(colors, np.float64))
+            if light is not None:
+                renderer.set_light(_array(light, np.float64))
+            renderer.render(context.camera, context.seed)
+            renderer._torch_images += 1
+            context.images = renderer._torch_images
+        gradients = renderer.backward(*(None if gradient is None else _array(gradient, np.float32)
+                                        for gradient in (color, mask, depth)))
+
+        def like(name, tensor):
+            if tensor is None or name not in gradients:
+                return None
+            return torch.from_numpy(gradients[name]).to(tensor)
+
+        return (None, None, None, like("vertices", vertices), like("colors", colors),
+                like("light", light))
+
+
+def render(renderer, camera, vertices, colors=None, light=None, seed=0):
+    """Renders an image with gradients.
+
+    Args:
+        renderer (DifferentiableRenderer): of the mesh; colours need a renderer made with colours.
+        camera (Camera): where from.
+        vertices (N, 3): tensor, m.
+        colors (N, 3): tensor; None: as they are.
+        light (9, 3): tensor; None: as it is.
+        seed (int): of the samples in a pixel.
+
+    Returns:
+        (color, mask, depth): (H, W, 3), (H, W, 1), (H, W, 1) float32 tensors.
+
+    Raises:
+        Error: for tensors of another shape.
+    """
+    if tuple(vertices.shape) != (len(renderer.welded), 3):
+        raise _core.Error(f"vertices: have the shape {tuple(vertices.shape)} "
+                          f"(give {(len(renderer.welded), 3)})")
+    return _Render.apply(renderer, camera, int(seed), vertices, colors, light)

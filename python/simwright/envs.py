@@ -1,0 +1,368 @@
+"""Gymnasium environments of skills, long tasks and any tasks.json.
+
+    import gymnasium, simwright
+    env = gymnasium.make("simwright/OpenDrawer-v0")
+    envs = gymnasium.make_vec("simwright/OpenDrawer-v0", num_envs=64)
+    env = gymnasium.make("simwright/Task-v0", tasks="tasks.json", task="pick_up_cup_*")
+
+An action lasts 0.05 s. Action spaces (docs/python.md): "focus" (the policies' own, relative to the
+target), "guided", "delta", "osc_delta" (robosuite's OSC_POSE), "absolute", "joints" and
+"joint_targets"; all are boxes in [-1, 1].
+"""
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from gymnasium.vector import AutoresetMode
+from gymnasium.vector.utils import batch_space
+
+from . import _core
+from ._cells import cell_tasks, long_task
+from ._progress import reporter
+
+__all__ = ["LongTaskEnv", "SkillEnv", "SkillVectorEnv", "register_envs"]
+
+# robosuite's OSC_POSE moves by at most 0.05 m and 0.5 rad a step; 1 closes its gripper.
+_OSC_SETTINGS = {"reach": 0.2, "turn": 2.0, "delta_share": 0.25}
+_ACTION_SPACES = ("focus", "guided", "delta", "osc_delta", "absolute", "joints", "joint_targets")
+
+
+def _settings(action_space, robot, episode_seconds):
+    if action_space not in _ACTION_SPACES:
+        raise _core.Error(f"action_space: is '{action_space}' (give one of {', '.join(_ACTION_SPACES)})")
+    settings = _core.TaskSettings()
+    settings.robot = robot
+    settings.action_space = "delta" if action_space == "osc_delta" else action_space
+    settings.episode_seconds = episode_seconds
+    if action_space == "osc_delta":
+        for name, value in _OSC_SETTINGS.items():
+            setattr(settings, name, value)
+    return settings
+
+
+def _prepare(cell, tasks, task, robot, action_space, split, instances, episode_seconds, progress):
+    """Returns the prepared task of a cell, or of a task file."""
+    if (cell is None) == (tasks is None):
+        raise _core.Error("environment: needs a cell, or a tasks.json (give one of cell=, tasks=)")
+    if cell is not None:
+        known = next((entry for entry in _core.cells() if entry["name"] == cell), None)
+        file = cell_tasks(cell, split, instances, reporter(progress))
+        return _core.PreparedTask(str(file), ["*"],
+                                  _settings(action_space, robot or known["robot"], episode_seconds))
+    patterns = [task] if isinstance(task, str) else list(task)
+    return _core.PreparedTask(str(tasks), patterns,
+                              _settings(action_space, robot or "panda", episode_seconds))
+
+
+def _numbers(actions, shape):
+    """Returns actions as float32; raises Error for another shape or type."""
+    try:
+        array = np.asarray(actions)
+        if array.dtype.kind not in "fiub":
+            raise TypeError(f"has the type {array.dtype}")
+        array = np.ascontiguousarray(array, dtype=np.float32)
+    except (TypeError, ValueError) as error:
+        raise _core.Error(f"action: is not an array of real numbers ({error})") from None
+    if array.shape != shape:
+        raise _core.Error(f"action: has the shape {array.shape} (give {shape})")
+    return array
+
+
+def _fault(action, failed_physics, environment=None):
+    """Returns why an episode was ended."""
+    where = "" if environment is None else f" of environment {environment}"
+    if failed_physics:
+        return f"the physics{where} failed"
+    bad = ", ".join(str(index) for index in np.flatnonzero(~np.isfinite(action)))
+    return f"the action{where} is not finite in {bad}"
+
+
+class _Closable:
+    """What the environments share: they can be closed once, and say so afterwards."""
+
+    _open = True
+
+    def _require_open(self):
+        if not self._open:
+            raise _core.Error("the environment: is closed (make a new one)")
+
+
+class SkillEnv(_Closable, gymnasium.Env):
+    """One subtask with a Franka Panda, in Bullet.
+
+    Args:
+        cell (str): a cell of the skill suite, such as "open_drawer".
+        tasks, task: instead of a cell, a tasks.json and a name or patterns in it.
+        subtask (int): index of the subtask in these tasks.
+        split (str), instances (int): of a cell, "train" or "unseen" objects, and how many.
+        action_space (str): see the module.
+        robot (str): panda, panda_on_base, or a URDF with its side file; None: the cell's.
+        easy_starts (bool): a share of episodes starts at the target, or with its joint partly open.
+        episode_seconds (float): s, then the episode is truncated.
+        render_mode (str): None or "rgb_array".
+        progress: see ``simwright``; making the objects of a cell takes up to a minute once.
+
+    Observations are (O) float32, about 1 in size (docs/skills.md). ``info`` has ``success`` (the
+    goal holds now), ``is_success`` (it held for half a second, which ends the episode) and, after a
+    fault, ``fault``. The reward is the task's program plus 1 while the goal holds.
+    """
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
+
+    def __init__(self, cell=None, tasks=None, task="*", subtask=0, split="train", instances=None,
+                 action_space="focus", robot=None, easy_starts=False, episode_seconds=None,
+                 render_mode=None, progress=None):
+        self.task = _prepare(cell, tasks, task, robot, action_space, split, instances,
+                             episode_seconds, progress)
+        self.render_mode = render_mode
+        self._flip_gripper = action_space == "osc_delta"
+        self._episode = _core.SingleEpisode(self.task, int(subtask), not easy_starts)
+        self.observation_space = spaces.Box(-np.inf, np.inf, (self.task.observation_size(subtask),),
+                                            np.float32)
+        self.action_space = spaces.Box(-1.0, 1.0, (self.task.action_size(subtask),), np.float32)
+        self._seed = None
+        self._index = 0
+        self._running = False
+
+    def reset(self, *, seed=None, options=None):
+        """Starts the next episode of the seed; a new seed starts with its first one."""
+        self._require_open()
+        super().reset(seed=seed)
+        if seed is not None or self._seed is None:
+            self._seed = int(self.np_random.integers(2**62)) if seed is None else int(seed)
+            self._index = 0
+        else:
+            self._index += 1
+        observation = self._episode.begin(self._seed, self._index)
+        self._running = True
+        return observation, {"success": False, "is_success": False}
+
+    def step(self, action):
+        """Executes an action (A), clamped to [-1, 1]; one that is not finite ends the episode."""
+        self._require_open()
+        if not self._running:
+            raise _core.Error("the episode: has ended (call reset())")
+        action = _numbers(action, self.action_space.shape)
+        if self._flip_gripper:
+            action = np.concatenate([action[:-1], -action[-1:]])
+        observation, reward, held, truncated, success, invalid, failed = self._episode.step(action)
+        info = {"success": success, "is_success": held}
+        if invalid or failed:
+            info["fault"] = _fault(action, failed)
+            held, truncated = invalid, not invalid
+        self._running = not (held or truncated)
+        return observation, float(reward), held, truncated, info
+
+    def expert_action(self):
+        """Returns the scripted expert's action (A), or None where there is none."""
+        self._require_open()
+        return self._episode.expert_action()
+
+    def state(self):
+        """Returns the state in SI units, world frame: robot_joints (rad), gripper_pose (4, 4),
+        gripper_opening (m), grasped, objects (pose (4, 4), joints), seconds."""
+        self._require_open()
+        return self._episode.state()
+
+    def close(self):
+        self._open = False
+
+
+class SkillVectorEnv(_Closable, gymnasium.vector.VectorEnv):
+    """N environments of a subtask, stepped in C++ on all threads.
+
+    An episode that ends restarts in the same step (``AutoresetMode.SAME_STEP``): ``final_obs`` in
+    the infos holds its last observation, ``final_info`` its success. Arguments as for ``SkillEnv``.
+    """
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 20,
+                "autoreset_mode": AutoresetMode.SAME_STEP}
+
+    def __init__(self, num_envs=1, cell=None, tasks=None, task="*", subtask=0, split="train",
+                 instances=None, action_space="focus", robot=None, easy_starts=False,
+                 episode_seconds=None, render_mode=None, progress=None):
+        self.num_envs = int(num_envs)
+        self.render_mode = render_mode
+        self.task = _prepare(cell, tasks, task, robot, action_space, split, instances,
+                             episode_seconds, progress)
+        self._flip_gripper = action_space == "osc_delta"
+        self._episodes = _core.VectorEpisodes(self.task, int(subtask), self.num_envs, not easy_starts)
+        self.single_observation_space = spaces.Box(
+            -np.inf, np.inf, (self._episodes.observation_size,), np.float32)
+        self.single_action_space = spaces.Box(-1.0, 1.0, (self._episodes.action_size,), np.float32)
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.action_space = batch_space(self.single_action_space, self.num_envs)
+
+    def reset(self, *, seed=None, options=None):
+        """Restarts all episodes. ``seed``: an int, or a list of N ints that is condensed to one."""
+        self._require_open()
+        if options and "reset_mask" in options:
+            raise _core.Error("reset_mask: is not used (episodes restart in the step that ends them)")
+        if isinstance(seed, (list, tuple, np.ndarray)):
+            if len(seed) != self.num_envs:
+                raise _core.Error(f"seed: has {len(seed)} entries (give {self.num_envs}, or one int)")
+            if any(one is None for one in seed):
+                seed = None
+            else:
+                state = np.random.SeedSequence([int(one) for one in seed]).generate_state(2)
+                seed = int(state[0]) << 30 | int(state[1]) >> 2
+        super().reset(seed=seed)
+        if seed is None:
+            seed = int(self.np_random.integers(2**62))
+        observations = self._episodes.reset(int(seed))
+        return observations, self._info(np.zeros(self.num_envs, dtype=bool))
+
+    def _info(self, success):
+        return {"success": success, "_success": np.ones(self.num_envs, dtype=bool)}
+
+    def step(self, actions):
+        """Executes actions (N, A), clamped to [-1, 1]."""
+        self._require_open()
+        actions = _numbers(actions, self.action_space.shape)
+        if self._flip_gripper:
+            actions = np.concatenate([actions[:, :-1], -actions[:, -1:]], axis=1)
+        (observations, rewards, terminated, truncated, success, last, invalid,
+         failed) = self._episodes.step(actions)
+        infos = self._info(success)
+        if last is not None:
+            terminated, truncated = terminated | invalid, truncated & ~invalid
+            ended = terminated | truncated
+            final = np.full(self.num_envs, None, dtype=object)
+            for index in np.flatnonzero(ended):
+                final[index] = last[index]
+            infos["final_obs"], infos["_final_obs"] = final, ended
+            final_info = {"is_success": success & ended, "_is_success": ended.copy()}
+            faults = invalid | failed
+            if faults.any():
+                text = np.full(self.num_envs, None, dtype=object)
+                for index in np.flatnonzero(faults):
+                    text[index] = _fault(actions[index], failed[index], index)
+                final_info["fault"], final_info["_fault"] = text, faults
+            infos["final_info"], infos["_final_info"] = final_info, ended.copy()
+        return observations, rewards, terminated, truncated, infos
+
+    def expert_actions(self):
+        """Returns the scripted expert's actions (N, A), or None where there is none."""
+        self._require_open()
+        return self._episodes.demonstrate()
+
+    def close_extras(self, **kwargs):
+        self._open = False
+
+
+class LongTaskEnv(_Closable, gymnasium.Env):
+    """A task of several subtasks, one after the other.
+
+    Observations: the index of the current subtask as a one-hot vector, then its observation, padded
+    with zeros to the longest. The next subtask begins where the goal of the one before was held for
+    half a second; ``terminated`` is the goal of the last one. ``info`` has ``subtask`` (index) and
+    what ``SkillEnv`` says. Arguments as for ``SkillEnv``; ``name`` is a shipped long task.
+    """
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
+
+    def __init__(self, name=None, tasks=None, task="*", action_space="focus", robot=None,
+                 episode_seconds=None, render_mode=None, progress=None):
+        if (name is None) == (tasks is None):
+            raise _core.Error("environment: needs a long task, or a tasks.json (give name= or tasks=)")
+        if name is not None:
+            known = next((entry for entry in _core.long_tasks() if entry["name"] == name), None)
+            tasks = long_task(name, reporter(progress))
+            robot = robot or known["robot"]
+        self.task = _prepare(None, tasks, task, robot, action_space, "train", None, episode_seconds,
+                             progress)
+        self.render_mode = render_mode
+        self._flip_gripper = action_space == "osc_delta"
+        count = len(self.task.subtasks)
+        self._episodes = [_core.SingleEpisode(self.task, index, True) for index in range(count)]
+        self._longest = max(self.task.observation_size(index) for index in range(count))
+        self.observation_space = spaces.Box(-np.inf, np.inf, (count + self._longest,), np.float32)
+        self.action_space = spaces.Box(-1.0, 1.0, (self.task.action_size(0),), np.float32)
+        self._subtask = 0
+        self._seed = None
+        self._index = 0
+        self._running = False
+
+    def _observation(self, part):
+        whole = np.zeros(self.observation_space.shape, np.float32)
+        count = len(self._episodes)
+        whole[self._subtask] = 1.0
+        whole[count:count + part.shape[0]] = part
+        return whole
+
+    def subtask_observation(self, observation):
+        """Returns the current subtask's own observation, which its policy takes."""
+        count = len(self._episodes)
+        return observation[count:count + self.task.observation_size(self._subtask)]
+
+    def reset(self, *, seed=None, options=None):
+        """Starts the next episode of the seed; a new seed starts with its first one."""
+        self._require_open()
+        super().reset(seed=seed)
+        if seed is not None or self._seed is None:
+            self._seed = int(self.np_random.integers(2**62)) if seed is None else int(seed)
+            self._index = 0
+        else:
+            self._index += 1
+        self._subtask = 0
+        self._running = True
+        part = self._episodes[0].begin(self._seed, self._index)
+        return self._observation(part), {"success": False, "is_success": False, "subtask": 0}
+
+    def step(self, action):
+        """Executes an action (A) in the current subtask."""
+        self._require_open()
+        if not self._running:
+            raise _core.Error("the episode: has ended (call reset())")
+        action = _numbers(action, self.action_space.shape)
+        if self._flip_gripper:
+            action = np.concatenate([action[:-1], -action[-1:]])
+        episode = self._episodes[self._subtask]
+        part, reward, held, truncated, success, invalid, failed = episode.step(action)
+        info = {"success": success, "is_success": False, "subtask": self._subtask}
+        terminated = False
+        if invalid or failed:
+            info["fault"] = _fault(action, failed)
+            terminated, truncated = invalid, not invalid
+        elif held and self._subtask + 1 < len(self._episodes):
+            self._subtask += 1
+            part = self._episodes[self._subtask].begin_after(episode)
+            info["subtask"] = self._subtask
+        elif held:
+            terminated = info["is_success"] = True
+        self._running = not (terminated or truncated)
+        return self._observation(part), float(reward), terminated, truncated, info
+
+    def expert_action(self):
+        """Returns the scripted expert's action (A), or None where there is none."""
+        self._require_open()
+        return self._episodes[self._subtask].expert_action()
+
+    def state(self):
+        """Returns the state in SI units, as ``SkillEnv.state``."""
+        self._require_open()
+        return self._episodes[self._subtask].state()
+
+    def close(self):
+        self._open = False
+
+
+def _camel(name):
+    return "".join(word.capitalize() for word in name.split("_"))
+
+
+def register_envs():
+    """Registers simwright/OpenDrawer-v0 and the other environments, once."""
+    def register(title, entry, vector=None, **kwargs):
+        full = f"simwright/{title}-v0"
+        if full not in gymnasium.registry:
+            gymnasium.register(full, entry_point=f"simwright.envs:{entry}",
+                               vector_entry_point=vector and f"simwright.envs:{vector}",
+                               kwargs=kwargs, disable_env_checker=False)
+
+    for cell in _core.cells():
+        register(_camel(cell["name"]), "SkillEnv", "SkillVectorEnv", cell=cell["name"])
+    for task in _core.long_tasks():
+        register(_camel(task["name"]), "LongTaskEnv", name=task["name"])
+    register("Task", "SkillEnv", "SkillVectorEnv")
+    register("LongTask", "LongTaskEnv")

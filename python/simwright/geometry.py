@@ -1,0 +1,73 @@
+"""Solids, convex decomposition and mass properties of triangle meshes."""
+
+from . import _core
+from ._arguments import mesh
+from ._core import MassProperties, Mesh
+from ._progress import reporter
+
+__all__ = ["MassProperties", "Mesh", "decompose", "make_solid", "mass_properties", "mesh", "read_mesh"]
+
+read_mesh = _core.read_mesh
+
+
+def make_solid(mesh, face_budget=20000, progress=None):
+    """Makes one closed solid from any triangles: soups, open, inverted, doubled, intersecting.
+
+    Args:
+        mesh (Mesh): metres.
+        face_budget (int): most faces of a solid that has to be wrapped.
+        progress: see ``simwright``.
+
+    Returns:
+        (Mesh, dict): the solid, closed, outward and free of self-intersections, within 0.5 % of the
+        diagonal of the outer surface; and ``method``, ``sheet_thickness`` (m) and ``findings``.
+
+    Raises:
+        Error: for a mesh without faces or extent.
+    """
+    return _core.make_solid(mesh, int(face_budget), reporter(progress))
+
+
+def decompose(solid, threshold=0.05, max_parts=0, max_vertices=64, seed=1, progress=None):
+    """Decomposes a closed solid into convex parts that leave its hollows open.
+
+    Args:
+        solid (Mesh): closed and oriented outward.
+        threshold (float): largest concavity of a part; the solid's longest side counts 2.
+        max_parts (int): most parts; 0: as many as the threshold needs, at most 256.
+        max_vertices (int): most vertices of a part.
+        seed (int): of the points at which concavity is measured.
+        progress: see ``simwright``.
+
+    Returns:
+        (list of Mesh, dict): the parts by descending volume; and ``concavity`` and ``coverage``.
+
+    Raises:
+        Error: for a mesh without volume, or an option out of its range.
+    """
+    return _core.decompose(solid, float(threshold), int(max_parts), int(max_vertices), int(seed),
+                           reporter(progress))
+
+
+def mass_properties(mesh, density, wall_thickness=None, sheet=False):
+    """Computes volume, mass, centre of mass and inertia, exact for a polyhedron.
+
+    Args:
+        mesh (Mesh): closed and outward (any surface if ``sheet``), m.
+        density (float): of the material, kg/m^3.
+        wall_thickness (float): m; None: the body is full.
+        sheet (bool): the material is a sheet of that thickness on the surface.
+
+    Returns:
+        MassProperties: in the mesh's frame; the inertia is about the centre of mass.
+
+    Raises:
+        Error: for an open or inside-out surface, or a number that is not positive.
+    """
+    if wall_thickness is None:
+        if sheet:
+            raise _core.Error("mass_properties: a sheet needs a wall_thickness")
+        return _core.solid_mass_properties(mesh, float(density))
+    if sheet:
+        return _core.shell_mass_properties(mesh, float(wall_thickness), float(density))
+    return _core.hollow_mass_properties(mesh, float(wall_thickness), float(density))

@@ -1,0 +1,28 @@
+"""Sizes, masses and contact parameters of household objects by category."""
+
+from . import _core
+
+__all__ = ["categories", "sample"]
+
+
+def categories():
+    """Returns the names of the categories of the knowledge base."""
+    return _core.categories()
+
+
+def sample(category, seed=1):
+    """Samples the physical parameters of an object of a category.
+
+    Args:
+        category (str): free text, such as "coffee mug"; WordNet is used where it is installed.
+        seed (int): the same seed gives the same object.
+
+    Returns:
+        dict: ``category`` (the row used), ``resolution`` (how the name was resolved), ``material``,
+        ``fill``, and ``length``, ``width``, ``height`` (m), ``mass`` (kg), ``density`` (kg/m^3),
+        ``friction``, ``restitution``: each a dict of ``min``, ``max``, ``sample``, ``source``.
+
+    Raises:
+        Error: if no category is near, naming the nearest ones.
+    """
+    return _core.sample_parameters(str(category), int(seed))

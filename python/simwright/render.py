@@ -1,0 +1,157 @@
+"""Images of meshes, and the differentiable renderer."""
+
+import numpy as np
+
+from . import _core
+from ._arguments import array
+from ._core import TexturedMesh
+
+__all__ = ["DifferentiableRenderer", "TexturedMesh", "camera", "orbit_camera", "render",
+           "studio_light"]
+
+
+def camera(width, height, fx, fy, cx, cy, pose):
+    """Returns a pinhole camera that looks along +z, x right, y down (OpenCV).
+
+    Args:
+        width, height (int): pixels; pixel (i, j) has its centre at (i + 0.5, j + 0.5).
+        fx, fy, cx, cy (float): focal lengths and principal point, pixels.
+        pose (4, 4): world from camera, m.
+
+    Returns:
+        Camera
+
+    Raises:
+        Error: without pixels or focal length, or for a pose that is not finite.
+    """
+    return _core.Camera(int(width), int(height), float(fx), float(fy), float(cx), float(cy),
+                        array("pose", pose, (4, 4), np.float64))
+
+
+def orbit_camera(target, distance, elevation, azimuth, vertical_fov, width, height):
+    """Returns a camera that looks at a point.
+
+    Args:
+        target (3): m, world.
+        distance (float): m, > 0.
+        elevation, azimuth (float): rad; above the horizontal plane, and from the world's +x axis.
+        vertical_fov (float): rad.
+        width, height (int): pixels.
+
+    Returns:
+        Camera
+
+    Raises:
+        Error: for an elevation of pi/2 and more, or sizes that are not positive.
+    """
+    return _core.orbit_camera(array("target", target, (3,), np.float64), float(distance), float(elevation), float(azimuth),
+                              float(vertical_fov), int(width), int(height))
+
+
+def render(meshes, camera, samples_per_side=1, occlusion_rays=0):
+    """Renders meshes in the world's frame.
+
+    Args:
+        meshes (TexturedMesh, Mesh, or a list of them): m.
+        camera (Camera): where from.
+        samples_per_side (int): n x n rays per pixel.
+        occlusion_rays (int): rays of ambient occlusion per hit; 0: none.
+
+    Returns:
+        dict: ``color`` (H, W, 4) uint8 sRGB, ``depth`` (H, W) float32, m along the optical axis, 0
+        where nothing is seen, ``normal`` (H, W, 3) float32, world, ``mask`` (H, W) float32,
+        ``label`` (H, W) int32, the mesh's index or -1, and ``triangle`` (H, W) int32.
+
+    Raises:
+        Error: for a mesh without faces.
+    """
+    if isinstance(meshes, (_core.TexturedMesh, _core.Mesh)):
+        meshes = [meshes]
+    meshes = [TexturedMesh(mesh) if isinstance(mesh, _core.Mesh) else mesh for mesh in meshes]
+    return _core.render(meshes, camera, int(samples_per_side), int(occlusion_rays))
+
+
+def studio_light(key=(0.4, -0.5, 0.75)):
+    """Returns a light: (9, 3) float64, real spherical harmonics up to degree 2, linear RGB.
+
+    Args:
+        key (3): the direction towards the key light, unit, world.
+    """
+    return _core.light(array("key", key, (3,), np.float32))
+
+
+class DifferentiableRenderer:
+    """Renders a mesh and backpropagates image gradients, visibility included.
+
+    Made for thousands of steps: buffers are reused and the ray tree is refitted. One thread at a
+    time. ``simwright.autograd`` wraps it for torch.
+
+    Args:
+        mesh (Mesh): N vertices.
+        colors (N, 3): float64 per vertex, in the caller's colour space; None: white.
+        texture (H, W, 3): float32, with ``corner_uvs`` (3 M, 2) float32; None: none.
+        lit (bool): shades by the light; else the colour is the albedo.
+        smooth_normals, render_normals (bool): normals of vertices; fills ``normal``.
+        samples_per_side (int): n x n rays per pixel.
+        edge_samples (int): samples of silhouettes per image.
+
+    Raises:
+        Error: for an invalid mesh, or colours, texture and UVs that do not fit it.
+    """
+
+    def __init__(self, mesh, colors=None, texture=None, corner_uvs=None, lit=False,
+                 smooth_normals=True, render_normals=False, samples_per_side=2, edge_samples=4000):
+        if colors is not None:
+            colors = array("colors", colors, (len(mesh.vertices), 3), np.float64)
+        if texture is not None:
+            texture = array("texture", texture, (None, None, 3), np.float32)
+        if corner_uvs is not None:
+            corner_uvs = array("corner_uvs", corner_uvs, (3 * len(mesh.triangles), 2), np.float32)
+        self._renderer = _core.DifferentiableRenderer(
+            mesh, colors, texture, corner_uvs, bool(lit), bool(smooth_normals), bool(render_normals),
+            int(samples_per_side), int(edge_samples))
+
+    def set_vertices(self, vertices):
+        """Sets the vertices (N, 3), m, that the next image uses."""
+        self._renderer.set_vertices(array("vertices", vertices, (None, 3), np.float64))
+
+    def set_colors(self, colors):
+        """Sets the vertex colours (N, 3)."""
+        self._renderer.set_colors(array("colors", colors, (None, 3), np.float64))
+
+    def set_texture(self, texture):
+        """Sets the texture (H, W, 3)."""
+        self._renderer.set_texture(array("texture", texture, (None, None, 3), np.float32))
+
+    def set_light(self, radiance):
+        """Sets the light (9, 3), as ``studio_light`` returns it."""
+        self._renderer.set_light(array("radiance", radiance, (9, 3), np.float64))
+
+    def render(self, camera, seed=0):
+        """Renders an image: means over each pixel, premultiplied by coverage.
+
+        Returns:
+            dict: ``color`` (H, W, 3), ``mask`` (H, W, 1), ``depth`` (H, W, 1), m, and ``normal``
+            (H, W, 3) if it was asked for; float32.
+        """
+        return self._renderer.render(camera, int(seed))
+
+    def backward(self, color=None, mask=None, depth=None, normal=None):
+        """Returns the gradients of L, given dL/d(image) of the last image's buffers.
+
+        Returns:
+            dict: ``vertices`` (N, 3) float64, ``colors`` (N, 3) float32 or ``texture`` (H, W, 3) if
+            there are any, and ``light`` (9, 3).
+
+        Raises:
+            Error: before a first image, or for a gradient of another size.
+        """
+        given = {"color": color, "mask": mask, "depth": depth, "normal": normal}
+        return self._renderer.backward(*(
+            None if gradient is None else array(name, gradient, (None, None, None), np.float32)
+            for name, gradient in given.items()))
+
+    @property
+    def welded(self):
+        """(N) for each vertex the first vertex at the same position: move those together."""
+        return self._renderer.welded

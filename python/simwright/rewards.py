@@ -1,0 +1,105 @@
+"""Reward programs: a restricted Python, compiled and run over batches of environments."""
+
+from . import _core
+from ._core import RewardProgram
+
+__all__ = ["Program", "compile"]
+
+
+def _is_tensor(value):
+    return type(value).__module__.split(".")[0] == "torch"
+
+
+class Program:
+    """A compiled reward function. Constant and thread-safe.
+
+    Attributes:
+        entry (str): the function's name.
+        inputs (list of dict): what it reads: ``key``, ``shape``, ``width``, ``uniform`` ...
+        has_success (bool): whether it returns success.
+        operations (int): instructions per environment.
+        findings (list of Finding): what the compiler has to say.
+    """
+
+    def __init__(self, program):
+        self._program = program
+        self.entry = program.entry
+        self.inputs = program.slots
+        self.has_success = program.has_success
+        self.operations = program.operations
+        self.findings = program.findings
+        self._keys = {slot["key"]: slot for slot in self.inputs}
+
+    def __repr__(self):
+        return f"Program({self.entry}, reads {', '.join(self._keys) or 'nothing'})"
+
+    def __call__(self, inputs=None, count=None, **parameters):
+        """Computes rewards.
+
+        Args:
+            inputs (dict): key to numpy array or torch tensor (main memory), float32: (N, width), or
+                (N) where the width is 1; inputs that are the same for all environments are numbers.
+                Parameters of the function may be given by name instead.
+            count (int): N; None: from the arrays.
+
+        Returns:
+            (reward, success, components): reward (N) float32; success (N) bool or None; components
+            name to (N) or (N, width). Tensors if an input is a tensor, which shares their memory.
+
+        Raises:
+            Error: for an input that is missing, unknown, or of another shape.
+        """
+        given = dict(inputs or {})
+        given.update(parameters)
+        torch_used = any(_is_tensor(value) for value in given.values())
+        arrays = {}
+        for key, value in given.items():
+            if key not in self._keys:
+                raise _core.Error(f"the input '{key}': is not read by the program (it reads "
+                                  f"{', '.join(self._keys) or 'nothing'})")
+            arrays[key] = self._array(key, value)
+        if count is None:
+            count = max([array.shape[0] for key, array in arrays.items()
+                         if not self._keys[key]["uniform"]], default=1)
+        reward, success, components = self._program.run(arrays, int(count))
+        if not torch_used:
+            return reward, success, components
+        import torch
+
+        return (torch.from_numpy(reward), None if success is None else torch.from_numpy(success),
+                {name: torch.from_numpy(array) for name, array in components.items()})
+
+    @staticmethod
+    def _array(key, value):
+        import numpy as np
+
+        if _is_tensor(value):
+            value = value.detach()
+            if value.device.type != "cpu":
+                raise _core.Error(f"the input '{key}': is on {value.device} (move it to the cpu)")
+            value = value.numpy()
+        try:
+            array = np.ascontiguousarray(value, dtype=np.float32)
+        except (TypeError, ValueError) as error:
+            raise _core.Error(f"the input '{key}': is not an array of numbers ({error})") from None
+        return array if array.ndim > 0 else array.reshape(1)
+
+
+def compile(source, assets=(), entry="", shapes=None):
+    """Parses, checks and compiles a reward function; Python never runs it.
+
+    Args:
+        source (str): its text (docs/rewards.md describes the language).
+        assets (list of str): PATH or NAME=PATH of the assets that it names; empty: any name is
+            accepted, and joint limits are inputs.
+        entry (str): the function; empty: found by its name.
+        shapes (dict): trailing shapes of tensor parameters, e.g. {"pos": [3]}; others are inferred.
+
+    Returns:
+        Program
+
+    Raises:
+        Error: for a fault, with its line and column.
+    """
+    shapes = {name: [int(side) for side in shape] for name, shape in (shapes or {}).items()}
+    return Program(_core.compile_reward(source, [str(asset) for asset in assets], entry, shapes))

@@ -1,0 +1,78 @@
+"""Shipped and trained policies: loading, acting, measuring."""
+
+import os
+from pathlib import Path
+
+from . import _core
+from ._cells import cell_tasks
+from ._core import Policy, wilson_interval
+from ._progress import reporter
+
+__all__ = ["Policy", "evaluate", "load", "names", "wilson_interval"]
+
+
+def names():
+    """Returns the names of the shipped skills."""
+    return [cell["name"] for cell in _core.cells()]
+
+
+def _models():
+    folder = os.environ.get("SIMWRIGHT_MODELS") or _core.models_folder()
+    if not str(folder):
+        raise _core.Error("models: the folder of the shipped weights is missing "
+                          "(set SIMWRIGHT_MODELS to it)")
+    return Path(folder)
+
+
+def load(name_or_path):
+    """Loads a policy.
+
+    Args:
+        name_or_path (str): a name of ``names()``, or the path of a policy file.
+
+    Returns:
+        Policy: ``act(observations)`` maps (n, O) float32 to (n, A) float32 in [-1, 1].
+
+    Raises:
+        Error: for an unknown name (listing the known ones), or a missing or damaged file.
+    """
+    text = os.fspath(name_or_path)
+    if text in names():
+        return _core.read_policy(str(_core.shipped_policy_path(str(_models()), text)))
+    if os.sep in text or text.endswith(".pt"):
+        return _core.read_policy(text)
+    raise _core.Error(f"skill: there is no '{text}' (it is one of {', '.join(names())}, or the path "
+                      "of a policy file)")
+
+
+def evaluate(skill, episodes=100, seed=1, policy="shipped", split="unseen", progress=None):
+    """Measures the success of a policy on instances of its kind.
+
+    Args:
+        skill (str): a name of ``names()``.
+        episodes (int): number of episodes.
+        seed (int): of their starts.
+        policy (Policy, "shipped" or "expert"): what acts; "expert" is the scripted expert.
+        split (str): "unseen" instances, or those of the "train" split.
+        progress: see ``simwright``.
+
+    Returns:
+        dict: ``episodes``, ``successes``, ``success`` (share), ``interval`` (95 %), ``seconds`` (mean
+        of the successes).
+
+    Raises:
+        Error: for an unknown skill, or a policy of other sizes.
+    """
+    report = reporter(progress)
+    file = cell_tasks(skill, split, report=report)
+    settings = _core.TaskSettings()
+    cell = next(entry for entry in _core.cells() if entry["name"] == skill)
+    settings.robot = cell["robot"]
+    if isinstance(policy, str):
+        if policy not in ("shipped", "expert"):
+            raise _core.Error(f"policy: is '{policy}' (give shipped, expert or a Policy)")
+        policy = load(skill) if policy == "shipped" else None
+    if policy is not None:
+        settings.action_space = policy.metadata.get("action", "focus")
+    task = _core.PreparedTask(str(file), ["*"], settings)
+    return _core.evaluate(task, 0, policy, int(episodes), int(seed), report)

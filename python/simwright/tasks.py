@@ -1,0 +1,117 @@
+"""Tasks for robots: generated for assets, trained, rolled out and exported."""
+
+from os import fspath
+
+from . import _core
+from ._progress import reporter
+
+__all__ = ["export", "make", "read", "rollout", "train"]
+
+
+def read(file):
+    """Returns the contents of a tasks.json as dicts and lists (docs/formats.md)."""
+    import json
+
+    try:
+        with open(file, encoding="utf-8") as stream:
+            return json.load(stream)
+    except (OSError, ValueError) as error:
+        raise _core.Error(f"{fspath(file)}: cannot be read ({error})") from None
+
+
+def make(assets, output, count=0, seed=1, force=False, progress=None):
+    """Generates the tasks that are possible with assets, by rules, and verifies each subtask.
+
+    Args:
+        assets (list of str): PATH or NAME=PATH, asset folders or URDFs.
+        output (path): the tasks.json to write; a page goes beside it.
+        count (int): most tasks; 0: five per asset.
+        seed (int): of the choice.
+        force (bool): replaces an existing file.
+        progress: see ``simwright``.
+
+    Returns:
+        dict: the report of ``simwright tasks --json``.
+
+    Raises:
+        Error: if an asset cannot be read, or the output exists.
+    """
+    if isinstance(assets, str) or hasattr(assets, "__fspath__"):
+        assets = [assets]
+    return _core.make_tasks([fspath(asset) for asset in assets], fspath(output), int(count), int(seed),
+                            bool(force), reporter(progress))
+
+
+def train(file, task, output, robot="panda", action_space="focus", num_envs=64, samples=2_000_000,
+          minutes=30.0, imitated_samples=65_536, episodes=200, seed=1, resume=False, progress=None):
+    """Trains one policy per subtask in Bullet, as ``simwright train`` does.
+
+    Args:
+        file (path): a tasks.json.
+        task (str or list of str): names or patterns ('*'); several tasks share a policy.
+        output (path): the run's folder.
+        robot (str): panda, panda_on_base, or a URDF with its side file.
+        action_space (str): focus, guided, absolute, delta, joints or joint_targets.
+        num_envs (int): environments.
+        samples (int): most decisions per subtask.
+        minutes (float): most minutes per subtask; 0: unlimited.
+        imitated_samples (int): decisions that imitate the scripted expert first.
+        episodes (int): per evaluation.
+        seed (int): of the training.
+        resume (bool): continues an interrupted run.
+        progress: see ``simwright``.
+
+    Returns:
+        dict: the report of ``simwright train --json``.
+
+    Raises:
+        Error: for an unknown task or a folder with another run.
+    """
+    patterns = [task] if isinstance(task, str) else list(task)
+    return _core.train_task(fspath(file), patterns, fspath(output), robot, action_space, int(num_envs),
+                            int(samples), float(minutes), int(imitated_samples), int(episodes),
+                            int(seed), bool(resume), reporter(progress))
+
+
+def rollout(run, episodes=100, seed=1, on="", tasks=(), pictures="", progress=None):
+    """Measures the success rate of a training run.
+
+    Args:
+        run (path): a folder of ``train``.
+        episodes (int): number of episodes.
+        seed (int): of their starts.
+        on (path): a tasks.json with similar tasks to evaluate on; empty: the run's own.
+        tasks (list of str): names or patterns in it.
+        pictures (path): a PNG of an episode; empty: none.
+        progress: see ``simwright``.
+
+    Returns:
+        dict: the report of ``simwright rollout --json``, with 95 % intervals.
+
+    Raises:
+        Error: if the folder has no run, or ``on`` does not match it.
+    """
+    return _core.rollout(fspath(run), int(episodes), int(seed), fspath(on), list(tasks),
+                         fspath(pictures), reporter(progress))
+
+
+def export(run, output, format="ros2", episodes=1, seed=1, force=False, progress=None):
+    """Exports trajectories or demonstrations of a training run, each verified by replay.
+
+    Args:
+        run (path): a folder of ``train``.
+        output (path): a file, or a folder for several trajectories.
+        format (str): ros2, csv or robomimic.
+        episodes (int): successful episodes to write.
+        seed (int): of their starts.
+        force (bool): replaces an existing folder.
+        progress: see ``simwright``.
+
+    Returns:
+        dict: the report of ``simwright export --json``.
+
+    Raises:
+        Error: for a file extension that does not match the format.
+    """
+    return _core.export_run(fspath(run), fspath(output), format, int(episodes), int(seed), bool(force),
+                            reporter(progress))
