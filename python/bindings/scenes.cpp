@@ -199,7 +199,11 @@ nb::object ExportWorlds(const fs::path& dataset, const fs::path& output, const s
 
 void BindScenes(nb::module_& module) {
   BindSceneObject(module);
-  module.def("scene_types", &scene::SceneTypes);
+  module.def("scene_types", [] {
+    std::vector<std::string> names;
+    for (const scene::SceneType& type : scene::SceneTypes()) names.push_back(type.name);
+    return names;
+  });
   module.def("read_scenes", &ReadScenes, "path"_a, "first"_a, "count"_a);
   module.def("make_feasible", &MakeFeasible, "objects"_a, "assets"_a, "min_objects"_a, "lowering"_a,
              "report"_a = nb::none());
