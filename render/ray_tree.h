@@ -17,8 +17,8 @@ struct IgnoredFaces {
   int count = 0;
 };
 
-// The only user of Embree: a ray tree over triangles in one frame (ROBUST). If vertices move, the
-// trees are refitted, not rebuilt. Queries are const and thread-safe.
+// A ray tree over triangles in one frame (ROBUST), on Embree; mesh_tree.h has the one for packets.
+// If vertices move, the trees are refitted, not rebuilt. Queries are const and thread-safe.
 class RayTree {
  public:
   RayTree();

@@ -146,6 +146,7 @@ void PrepareBodies(const std::vector<assets::SemanticModel>& models, const Skill
     variant->body_joints.push_back(std::move(joints));
     variant->solids.push_back(manipulation::ConvexPartsOf(body));
     variant->bodies.push_back(std::make_shared<sim::PreparedBody>(std::move(body)));
+    variant->visuals.push_back(assets::LinkVisuals(models[i].model));
   }
 }
 

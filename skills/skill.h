@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/link_visuals.h"
 #include "assets/semantic_model.h"
 #include "manipulation/interaction.h"
 #include "reward/reward_program.h"
@@ -28,7 +29,8 @@ struct SkillSubtask {
 struct SkillVariant : manipulation::Interaction {
   // The index of each of an object's joints in its body; by object.
   std::vector<std::vector<int>> body_joints;
-  std::vector<bool> fixed;      // by object
+  std::vector<bool> fixed;                               // by object
+  std::vector<std::vector<assets::LinkVisual>> visuals;  // by object; links of its kinematic model
   std::vector<int> carried_by;  // by object: what it stands in or on; -1: the floor
   std::optional<reward::RewardProgram> program;
 };

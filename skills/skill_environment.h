@@ -47,6 +47,12 @@ class SkillEnvironment : public rl::VectorEnvironment {
   // without any.
   std::string LastFailure() const;
   const Skill& skill() const { return *skill_; }
+  // Returns the current episode of an environment. Valid until the environment is destroyed.
+  const Episode& episode(int index) const {
+    return *instances_[static_cast<size_t>(index)].episode;
+  }
+  // Returns a number that no other episode since Reset has, in any environment.
+  std::uint64_t episode_seed(int index) const { return EpisodeSeed(static_cast<size_t>(index)); }
 
  private:
   // One environment. The number of its episode and the actions so far reproduce its state bit for

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "assets/mesh_import.h"
 #include "assets/primitive_meshes.h"
 #include "core/error.h"
 
@@ -17,61 +16,31 @@ const Eigen::Vector4f kObjectColor(0.75f, 0.72f, 0.66f, 1.0f);
 const Eigen::Vector4f kFloorColor(0.62f, 0.64f, 0.66f, 1.0f);
 constexpr double kFloorSide = 12.0;  // m
 
-core::TexturedMesh InOneColor(core::TriangleMesh mesh, const Eigen::Vector4f& color) {
-  core::TexturedMesh colored;
-  colored.mesh = std::move(mesh);
-  colored.triangle_material.assign(colored.mesh.triangles.size(), 0);
-  colored.materials.push_back({"plain", color, -1});
-  return colored;
-}
-
-// Returns a visual in its link's frame with the file's own materials, unless the URDF gives a
-// colour and it has no texture.
-core::TexturedMesh VisualMesh(const assets::UrdfShape& shape, const Eigen::Vector4f& color) {
-  if (shape.file.empty()) return InOneColor(shape.mesh, shape.color.value_or(color));
-  core::TexturedMesh seen = assets::ReadMesh(shape.file);
-  core::Transform(shape.link_from_file, &seen.mesh);
-  if (seen.textures.empty() && shape.color) {
-    for (core::Material& material : seen.materials) material.base_color = *shape.color;
-  }
-  return seen;
-}
-
 }  // namespace
 
-PosedScene::PosedScene(const robot::RobotModel& robot, const skills::SkillVariant& variant,
-                       const std::vector<tasks::TaskAsset>& assets)
+PosedScene::PosedScene(const robot::RobotModel& robot, const skills::SkillVariant& variant)
     : robot_(robot), variant_(variant) {
-  for (size_t i = 0; i < robot.urdf.links.size(); ++i) {
-    const std::vector<int>& fingers = robot.gripper.links;
-    const bool finger =
-        std::find(fingers.begin(), fingers.end(), static_cast<int>(i)) != fingers.end();
-    AddLink(robot.urdf.links[i], finger ? kFingerColor : kRobotColor, -1, static_cast<int>(i));
+  const std::vector<int>& fingers = robot.gripper.links;
+  for (const assets::LinkVisual& visual : assets::LinkVisuals(robot.urdf)) {
+    const bool finger = std::find(fingers.begin(), fingers.end(), visual.link) != fingers.end();
+    Add(visual, finger ? kFingerColor : kRobotColor, -1);
   }
   for (const int object : variant.placed) {
-    const tasks::ArticulatedObject& known = variant.model.objects[static_cast<size_t>(object)];
-    for (const tasks::TaskAsset& asset : assets) {
-      if (asset.name != known.name) continue;
-      for (const assets::UrdfLink& link : assets::ReadSemanticModel(asset.path).model.links) {
-        AddLink(link, kObjectColor, object, known.FindLink(link.name));
-      }
+    for (const assets::LinkVisual& visual : variant.visuals[static_cast<size_t>(object)]) {
+      Add(visual, kObjectColor, object);
     }
   }
   core::TriangleMesh floor = assets::BoxMesh({kFloorSide, kFloorSide, 0.02});
   core::Transform(Eigen::Affine3d(Eigen::Translation3d(0.0, 0.0, -0.0105)), &floor);
-  floor_ = InOneColor(std::move(floor), kFloorColor);
+  floor_ = assets::InOneColor(std::move(floor), kFloorColor);
 }
 
-void PosedScene::AddLink(const assets::UrdfLink& link, const Eigen::Vector4f& color, int object,
-                         int index) {
-  const bool drawn = !link.visuals.empty();
-  for (const assets::UrdfShape& shape : drawn ? link.visuals : link.collisions) {
-    try {
-      core::TexturedMesh seen = VisualMesh(shape, color);
-      if (!seen.mesh.empty()) pieces_.push_back({std::move(seen), object, index});
-    } catch (const core::Error&) {
-      continue;  // only the picture lacks it
-    }
+void PosedScene::Add(const assets::LinkVisual& visual, const Eigen::Vector4f& color, int object) {
+  try {
+    core::TexturedMesh seen = assets::ReadVisual(visual, color);
+    if (!seen.mesh.empty()) pieces_.push_back({std::move(seen), object, visual.link});
+  } catch (const core::Error&) {
+    return;  // only the picture lacks it
   }
 }
 

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <vector>
 
+#include "assets/link_visuals.h"
 #include "core/mesh.h"
 #include "render/scene.h"
-#include "tasks/task.h"
 #include "workflows/skills/skill_recording.h"
 
 namespace simwright::workflows {
@@ -14,10 +12,8 @@ namespace simwright::workflows {
 // The visuals of a robot and the objects of one task, ready to be posed at a recorded moment.
 class PosedScene {
  public:
-  // `variant` and `robot` must outlive the scene; `assets` are the run's and include the variant's
-  // objects. Unreadable visuals are omitted.
-  PosedScene(const robot::RobotModel& robot, const skills::SkillVariant& variant,
-             const std::vector<tasks::TaskAsset>& assets);
+  // `variant` and `robot` must outlive the scene. Unreadable visuals are omitted.
+  PosedScene(const robot::RobotModel& robot, const skills::SkillVariant& variant);
 
   // Adds all objects at `moment`, and the floor. `scene` must not outlive this object.
   void Place(const RecordedMoment& moment, render::Scene* scene) const;
@@ -30,7 +26,7 @@ class PosedScene {
     int object = -1;          // -1: the robot
     int link = 0;             // an index into the object's links or the robot URDF's
   };
-  void AddLink(const assets::UrdfLink& link, const Eigen::Vector4f& color, int object, int index);
+  void Add(const assets::LinkVisual& visual, const Eigen::Vector4f& color, int object);
   // Returns the pose of each piece.
   std::vector<Eigen::Isometry3d> Poses(const RecordedMoment& moment) const;
 

@@ -107,10 +107,9 @@ core::Json HeadJson(const SkillRun& run, const std::vector<RunSkill>& skills,
 
 }  // namespace
 
-core::Image RolloutStrip(const SkillRun& run, const std::vector<RunSkill>& skills,
-                         const ChainRecording& recording) {
+core::Image RolloutStrip(const std::vector<RunSkill>& skills, const ChainRecording& recording) {
   const skills::SkillVariant& variant = VariantOf(skills.front(), recording.subtasks.front());
-  const PosedScene posed(*skills.front().evaluated->robot, variant, run.set.assets);
+  const PosedScene posed(*skills.front().evaluated->robot, variant);
   std::vector<const RecordedMoment*> frames;
   Eigen::AlignedBox3d bounds;
   for (const RecordedSubtask& subtask : recording.subtasks) {

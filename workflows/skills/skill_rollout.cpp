@@ -29,7 +29,7 @@ void Show(const TrainedTask& task, const RolloutRequest& request,
     core::WriteFile(request.poses, RolloutPoses(task.run(), task.skills(), recording));
   }
   if (!request.pictures.empty()) {
-    core::WritePng(request.pictures, RolloutStrip(task.run(), task.skills(), recording));
+    core::WritePng(request.pictures, RolloutStrip(task.skills(), recording));
   }
 }
 
