@@ -105,6 +105,7 @@ void SkillEnvironment::StepOne(size_t index, const rl::Rows& actions, rl::StepBa
   }
   if (decision.terminated || decision.truncated) {
     instance.episode->Observe(batch->last_observations.row(row).data());
+    if (at_end_) at_end_(static_cast<int>(index), *instance.episode);
     ++instance.number;
     Begin(index);
   }

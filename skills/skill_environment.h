@@ -31,6 +31,11 @@ class SkillEnvironment : public rl::VectorEnvironment {
   void ScaleTerminalRewards(std::function<double(const StartState&)> share) {
     share_of_end_ = std::move(share);
   }
+  // Calls `listener` with the index of each episode that ends, before the next one begins. Called
+  // from several threads; may be empty.
+  void SetEndListener(std::function<void(int, const Episode&)> listener) {
+    at_end_ = std::move(listener);
+  }
   void Reset(std::uint64_t seed, rl::Rows* observations) override;
   void Step(const rl::Rows& actions, rl::StepBatch* batch) override;
   bool Demonstrate(rl::Rows* actions) const override;  // ExpertAction
@@ -75,6 +80,7 @@ class SkillEnvironment : public rl::VectorEnvironment {
   std::shared_ptr<const Skill> skill_;
   std::vector<StartState> pool_;
   std::function<double(const StartState&)> share_of_end_;
+  std::function<void(int, const Episode&)> at_end_;
   std::vector<Instance> instances_;
   std::vector<std::uint8_t> invalid_actions_, failed_physics_;  // (N)
   int observation_size_ = 0, action_size_ = 0;

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <Eigen/Core>
 
 #include "core/error.h"
 
@@ -25,7 +25,8 @@ using RowsArgument = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::dev
 
 // Returns a read-only view of `count` x 3 numbers at `data`, which `owner` keeps alive.
 template <typename Number>
-nb::ndarray<nb::numpy, const Number> View3(const Number* data, std::size_t count, nb::handle owner) {
+nb::ndarray<nb::numpy, const Number> View3(const Number* data, std::size_t count,
+                                           nb::handle owner) {
   return nb::ndarray<nb::numpy, const Number>(data, {count, 3}, owner);
 }
 
@@ -41,9 +42,8 @@ template <typename Number>
 nb::ndarray<nb::numpy, Number> Owned(std::vector<Number>&& values,
                                      std::initializer_list<size_t> shape) {
   auto* held = new std::vector<Number>(std::move(values));
-  const nb::capsule owner(held, [](void* memory) noexcept {
-    delete static_cast<std::vector<Number>*>(memory);
-  });
+  const nb::capsule owner(
+      held, [](void* memory) noexcept { delete static_cast<std::vector<Number>*>(memory); });
   return nb::ndarray<nb::numpy, Number>(held->data(), shape, owner);
 }
 
@@ -53,9 +53,8 @@ std::pair<nb::ndarray<nb::numpy, Number>, Number*> NewArray(std::initializer_lis
   std::size_t count = 1;
   for (const size_t side : shape) count *= side;
   auto* memory = new Number[count];
-  const nb::capsule owner(memory, [](void* numbers) noexcept {
-    delete[] static_cast<Number*>(numbers);
-  });
+  const nb::capsule owner(memory,
+                          [](void* numbers) noexcept { delete[] static_cast<Number*>(numbers); });
   return {nb::ndarray<nb::numpy, Number>(memory, shape, owner), memory};
 }
 
@@ -65,8 +64,7 @@ void RequireShape(const Array& array, std::size_t rows, std::size_t columns, con
   if (array.shape(0) == rows && array.shape(1) == columns) return;
   throw core::Error("has the shape (" + std::to_string(array.shape(0)) + ", " +
                         std::to_string(array.shape(1)) + ")",
-                    name,
-                    "give (" + std::to_string(rows) + ", " + std::to_string(columns) + ")");
+                    name, "give (" + std::to_string(rows) + ", " + std::to_string(columns) + ")");
 }
 
 }  // namespace simwright::python

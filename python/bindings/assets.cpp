@@ -44,11 +44,14 @@ void BindRigidAsset(nb::module_& module) {
       .def_ro("visual", &Asset::visual, "TexturedMesh: what is seen")
       .def_ro("solid", &Asset::solid, "Mesh: closed, outward; gives mass and inertia")
       .def_ro("parts", &Asset::parts, "list of Mesh: closed, convex, for contacts")
-      .def_prop_ro("mass", [](const Asset& asset) { return asset.inertial.mass; }, "kg")
-      .def_prop_ro("center_of_mass", [](const Asset& asset) { return asset.inertial.center_of_mass; },
-                   "(3) m")
-      .def_prop_ro("inertia", [](const Asset& asset) { return asset.inertial.inertia; },
-                   "(3, 3) kg m^2, about the centre of mass")
+      .def_prop_ro(
+          "mass", [](const Asset& asset) { return asset.inertial.mass; }, "kg")
+      .def_prop_ro(
+          "center_of_mass", [](const Asset& asset) { return asset.inertial.center_of_mass; },
+          "(3) m")
+      .def_prop_ro(
+          "inertia", [](const Asset& asset) { return asset.inertial.inertia; },
+          "(3, 3) kg m^2, about the centre of mass")
       .def_ro("volume", &Asset::volume, "m^3, enclosed by the solid")
       .def_ro("density", &Asset::density, "kg/m^3, of the material")
       .def_ro("wall_thickness", &Asset::wall_thickness, "m; 0: full")
@@ -71,21 +74,27 @@ void BindArticulatedAsset(nb::module_& module) {
       .def_ro("label", &ArticulatedLink::label, "its role: door, handle ...")
       .def_ro("visual", &ArticulatedLink::visual)
       .def_ro("parts", &ArticulatedLink::parts)
-      .def_prop_ro("mass", [](const ArticulatedLink& link) { return link.inertial.mass; }, "kg")
-      .def_prop_ro("center_of_mass",
-                   [](const ArticulatedLink& link) { return link.inertial.center_of_mass; }, "(3) m")
-      .def_prop_ro("inertia", [](const ArticulatedLink& link) { return link.inertial.inertia; },
-                   "(3, 3) kg m^2, about the centre of mass")
+      .def_prop_ro(
+          "mass", [](const ArticulatedLink& link) { return link.inertial.mass; }, "kg")
+      .def_prop_ro(
+          "center_of_mass",
+          [](const ArticulatedLink& link) { return link.inertial.center_of_mass; }, "(3) m")
+      .def_prop_ro(
+          "inertia", [](const ArticulatedLink& link) { return link.inertial.inertia; },
+          "(3, 3) kg m^2, about the centre of mass")
       .def_ro("friction", &ArticulatedLink::friction)
       .def("__repr__", [](const ArticulatedLink& link) { return "Link(" + link.name + ")"; });
   nb::class_<ArticulatedAsset>(
       module, "ArticulatedAsset",
       "An object with joints, which are closed, off or up at position 0. Constant.")
       .def_ro("name", &ArticulatedAsset::name)
-      .def_prop_ro("category", [](const ArticulatedAsset& asset) { return asset.parameters.category; })
+      .def_prop_ro("category",
+                   [](const ArticulatedAsset& asset) { return asset.parameters.category; })
       .def_ro("fixed", &ArticulatedAsset::fixed, "mounted on a wall, a floor or a counter")
       .def_ro("links", &ArticulatedAsset::links)
-      .def_prop_ro("joints", [](const ArticulatedAsset& asset) {
+      .def_prop_ro(
+          "joints",
+          [](const ArticulatedAsset& asset) {
             nb::list joints;
             for (size_t i = 0; i < asset.joints.size(); ++i) {
               const assets::Joint& joint = asset.joints[i];
@@ -99,9 +108,9 @@ void BindArticulatedAsset(nb::module_& module) {
               joints.append(dict);
             }
             return joints;
-          }, "dicts of name, type, child, axis (3), lower and upper (rad or m)")
-      .def("visual", &assets::VisualAtPositions,
-           "positions"_a = std::map<std::string, double>(),
+          },
+          "dicts of name, type, child, axis (3), lower and upper (rad or m)")
+      .def("visual", &assets::VisualAtPositions, "positions"_a = std::map<std::string, double>(),
            "Returns all visuals as one TexturedMesh, joints at `positions` (by name; rad or m).")
       .def_ro("seed", &ArticulatedAsset::seed)
       .def_ro("findings", &ArticulatedAsset::findings)
@@ -114,7 +123,8 @@ nb::object ReadAnyAsset(const fs::path& folder) {
   if (!assets::IsAssetFolder(folder)) {
     throw core::Error("has no asset.json", folder.string(), "give a folder made by lift or import");
   }
-  if (assets::IsArticulatedAssetFolder(folder)) return nb::cast(assets::ReadArticulatedAsset(folder));
+  if (assets::IsArticulatedAssetFolder(folder))
+    return nb::cast(assets::ReadArticulatedAsset(folder));
   return nb::cast(assets::ReadAsset(folder));
 }
 
@@ -196,9 +206,8 @@ nb::dict Lift(const fs::path& photo, const std::string& category, const fs::path
   } else if (shape != "free") {
     throw core::Error("is '" + shape + "'", "shape", "give auto, fitted or free");
   }
-  const workflows::LiftOutcome outcome = RunLong(report, [&](core::Progress* progress) {
-    return workflows::LiftToFolder(request, progress);
-  });
+  const workflows::LiftOutcome outcome = RunLong(
+      report, [&](core::Progress* progress) { return workflows::LiftToFolder(request, progress); });
   nb::dict dict;
   dict["folder"] = outcome.folder;
   dict["silhouette_iou"] = outcome.silhouette_iou;

@@ -13,6 +13,7 @@ void BindPhysics(nanobind::module_& module);
 void BindRewards(nanobind::module_& module);
 void BindTasks(nanobind::module_& module);
 void BindSkills(nanobind::module_& module);
+void BindCameras(nanobind::module_& module);
 void BindEnvironments(nanobind::module_& module);
 void BindScenes(nanobind::module_& module);
 

@@ -81,11 +81,12 @@ core::ProgressListener ListenerOf(nb::handle report) {
 }
 
 void BindErrors(nb::module_& module) {
-  error_type = PyErr_NewExceptionWithDoc(
-      "simwright.Error",
-      "What went wrong, where, and what to do about it, in one line.\n\n"
-      "Attributes:\n    where (str): the file, the element or the argument concerned; may be empty.",
-      PyExc_RuntimeError, nullptr);
+  error_type =
+      PyErr_NewExceptionWithDoc("simwright.Error",
+                                "What went wrong, where, and what to do about it, in one line.\n\n"
+                                "Attributes:\n    where (str): the file, the element or the "
+                                "argument concerned; may be empty.",
+                                PyExc_RuntimeError, nullptr);
   if (error_type == nullptr) throw nb::python_error();
   PyObject_SetAttrString(error_type, "where", nb::str("").ptr());
   module.attr("Error") = nb::handle(error_type);

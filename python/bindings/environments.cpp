@@ -1,30 +1,25 @@
 #include <cmath>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <nanobind/eigen/dense.h>
 #include <nanobind/nanobind.h>
-#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "arrays.h"
 #include "bindings.h"
 #include "core/error.h"
-#include "prepared_task.h"
-#include "skills/episode.h"
+#include "episodes.h"
 #include "skills/observation.h"
 #include "skills/scripted_expert.h"
-#include "skills/skill_environment.h"
 #include "skills/skill_evaluation.h"
 
 namespace simwright::python {
 namespace {
 
 using nb::literals::operator""_a;
-using FloatArray = nb::ndarray<nb::numpy, float>;
 using FlagArray = nb::ndarray<nb::numpy, bool>;
 
 FloatArray CopyOf(const rl::Rows& rows) {
@@ -46,210 +41,265 @@ FlagArray FlagsOf(const std::vector<std::uint8_t>& flags) {
   return array;
 }
 
-// N episodes of one subtask; each restarts in the step in which it ends.
-class VectorEpisodes {
- public:
-  VectorEpisodes(const PreparedTask& task, int subtask, int count, bool evaluated)
-      : environment_(task.SkillAt(subtask, evaluated), count) {}
-  VectorEpisodes(const VectorEpisodes&) = delete;
-  VectorEpisodes& operator=(const VectorEpisodes&) = delete;
+// Throws core::Error unless the cameras were made for this skill.
+void RequireCamerasOf(const skills::Skill& skill, const skills::EpisodeCameras& cameras) {
+  if (&cameras.skill() == &skill) return;
+  throw core::Error("are of another subtask, or of another kind of starts", "cameras",
+                    "make them for this one");
+}
 
-  FloatArray Reset(std::uint64_t seed) {
-    rl::Rows observations;
-    {
-      const nb::gil_scoped_release released;
-      environment_.Reset(seed, &observations);
-      started_ = true;
-    }
-    return CopyOf(observations);
-  }
-
-  nb::tuple Step(const RowsArgument& actions) {
-    if (!started_) throw core::Error("was not reset", "the environment", "call reset() first");
-    RequireShape(actions, static_cast<size_t>(environment_.size()),
-                 static_cast<size_t>(environment_.action_size()), "actions");
-    {
-      const nb::gil_scoped_release released;
-      actions_ = Eigen::Map<const rl::Rows>(actions.data(), environment_.size(),
-                                            environment_.action_size());
-      environment_.Step(actions_, &batch_);
-    }
-    return nb::make_tuple(CopyOf(batch_.observations), CopyOf(batch_.rewards),
-                          FlagsOf(batch_.terminated), FlagsOf(batch_.truncated),
-                          FlagsOf(batch_.success), LastObservations(),
-                          FlagsOf(environment_.invalid_actions()),
-                          FlagsOf(environment_.failed_physics()));
-  }
-
-  nb::object Demonstrate() const {
-    if (!started_) throw core::Error("was not reset", "the environment", "call reset() first");
-    rl::Rows actions;
-    if (!environment_.Demonstrate(&actions)) return nb::none();
-    return nb::cast(CopyOf(actions));
-  }
-
-  int size() const { return environment_.size(); }
-  int observation_size() const { return environment_.observation_size(); }
-  int action_size() const { return environment_.action_size(); }
-
- private:
-  // Returns the last observations (N x O) if an episode ended, else None.
-  nb::object LastObservations() const {
-    for (size_t i = 0; i < batch_.terminated.size(); ++i) {
-      if (batch_.terminated[i] || batch_.truncated[i]) {
-        return nb::cast(CopyOf(batch_.last_observations));
-      }
-    }
-    return nb::none();
-  }
-
-  skills::SkillEnvironment environment_;
-  rl::Rows actions_;
-  rl::StepBatch batch_;
-  bool started_ = false;
-};
-
-// One episode at a time of one subtask.
-class SingleEpisode {
- public:
-  SingleEpisode(const PreparedTask& task, int subtask, bool evaluated)
-      : skill_(task.SkillAt(subtask, evaluated)),
-        episode_(*skill_),
-        observation_size_(skills::Observer(*skill_, skill_->variants.front()).size()) {}
-  SingleEpisode(const SingleEpisode&) = delete;
-  SingleEpisode& operator=(const SingleEpisode&) = delete;
-
-  // Starts episode `index` of the seed: the one that EvaluateChain and SampleStarts number so.
-  FloatArray Begin(std::uint64_t seed, std::uint64_t index) {
-    {
-      const nb::gil_scoped_release released;
-      rng_ = core::StreamRng(seed, index);
-      episode_.Begin(skills::SampleStart(*skill_, rng_));
-      started_ = true;
-    }
-    return Observe();
-  }
-
-  // Starts where `previous`, of the subtask before, ended.
-  FloatArray BeginAfter(const SingleEpisode& previous) {
-    previous.RequireStarted();
-    {
-      const nb::gil_scoped_release released;
-      rng_ = previous.rng_;
-      episode_.Begin(skills::PlannedFrom(*skill_, skills::EndOf(previous.episode_), rng_,
-                                         skills::Resampling::kNothing));
-      started_ = true;
-    }
-    return Observe();
-  }
-
-  nb::tuple Step(const nb::ndarray<const float, nb::ndim<1>, nb::c_contig, nb::device::cpu>& action) {
-    RequireStarted();
-    if (action.shape(0) != static_cast<size_t>(ActionSize(*skill_))) {
-      throw core::Error("has " + std::to_string(action.shape(0)) + " numbers", "action",
-                        "give " + std::to_string(ActionSize(*skill_)));
-    }
-    skills::Decision decision;
-    {
-      const nb::gil_scoped_release released;
-      decision = episode_.Step(action.data());
-    }
-    return nb::make_tuple(Observe(), decision.reward, decision.terminated, decision.truncated,
-                          decision.success, decision.invalid_action,
-                          decision.failed && !decision.invalid_action);
-  }
-
-  nb::object ExpertAction() const {
-    RequireStarted();
-    if (skill_->options.action != skills::ActionSpace::kTargetFrame) return nb::none();
-    std::vector<float> action(static_cast<size_t>(ActionSize(*skill_)));
-    skills::ExpertAction(episode_, action.data());
-    return nb::cast(CopyOf(action));
-  }
-
-  // Returns the state in SI units, world frame.
-  nb::dict State() const {
-    RequireStarted();
-    const tasks::WorldState& state = episode_.state();
-    const skills::SkillVariant& variant = Variant();
-    nb::dict objects;
-    for (size_t i = 0; i < variant.model.objects.size(); ++i) {
-      const tasks::ArticulatedObject& object = variant.model.objects[i];
-      nb::dict joints;
-      for (size_t j = 0; j < object.joints.size(); ++j) {
-        joints[object.joints[j].name.c_str()] = state.joints[i][j];
-      }
-      nb::dict entry;
-      entry["pose"] = Eigen::Matrix4d(state.roots[i].matrix());
-      entry["joints"] = joints;
-      objects[object.name.c_str()] = entry;
-    }
-    nb::dict dict;
-    Eigen::VectorXd positions;
-    episode_.world().robot().Positions(&positions);
-    dict["robot_joints"] = positions;
-    dict["robot_command"] = Eigen::VectorXd(episode_.command().sent);
-    dict["gripper_pose"] = Eigen::Matrix4d(state.gripper.matrix());
-    dict["gripper_opening"] = state.opening;
-    dict["grasped"] = state.grasped;
-    dict["objects"] = objects;
-    dict["seconds"] = episode_.seconds();
-    return dict;
-  }
-
-  std::string TaskObject() const {
-    RequireStarted();
-    const skills::SkillVariant& variant = Variant();
-    if (!variant.target) return "";
-    return variant.model.objects[static_cast<size_t>(variant.target->object)].name;
-  }
-
- private:
-  void RequireStarted() const {
-    if (!started_) throw core::Error("has not begun", "the episode", "call reset() first");
-  }
-  const skills::SkillVariant& Variant() const {
-    return skill_->variants[static_cast<size_t>(episode_.start().variant)];
-  }
-  FloatArray Observe() const {
-    auto [array, memory] = NewArray<float>({static_cast<size_t>(observation_size_)});
-    episode_.Observe(memory);
-    return array;
-  }
-
-  std::shared_ptr<const skills::Skill> skill_;
-  skills::Episode episode_;
-  core::Rng rng_;
-  int observation_size_ = 0;
-  bool started_ = false;
-};
+void RequireCameras(const std::shared_ptr<const skills::EpisodeCameras>& cameras) {
+  if (!cameras) throw core::Error("has no cameras", "the environment", "attach some first");
+}
 
 }  // namespace
 
+VectorEpisodes::VectorEpisodes(const PreparedTask& task, int subtask, int count, bool evaluated)
+    : environment_(task.SkillAt(subtask, evaluated), count) {}
+
+void VectorEpisodes::RequireStarted() const {
+  if (!started_) throw core::Error("was not reset", "the environment", "call reset() first");
+}
+
+void VectorEpisodes::AttachCameras(std::shared_ptr<const skills::EpisodeCameras> cameras,
+                                   const std::vector<std::string>& names,
+                                   const std::vector<std::string>& kinds) {
+  RequireCamerasOf(environment_.skill(), *cameras);
+  last_choice_ = ImageChoice::Of(*cameras, names, kinds);
+  cameras_ = std::move(cameras);
+  views_.assign(static_cast<size_t>(size()), skills::EpisodeView(cameras_));
+  environment_.SetEndListener(
+      [this](int index, const skills::Episode& episode) { LookAtEnd(index, episode); });
+}
+
+FloatArray VectorEpisodes::Reset(std::uint64_t seed) {
+  rl::Rows observations;
+  {
+    const nb::gil_scoped_release released;
+    environment_.Reset(seed, &observations);
+    seed_ = seed;
+    started_ = true;
+    batch_ = {};
+  }
+  return CopyOf(observations);
+}
+
+nb::tuple VectorEpisodes::Step(const RowsArgument& actions) {
+  RequireStarted();
+  RequireShape(actions, static_cast<size_t>(size()), static_cast<size_t>(action_size()), "actions");
+  {
+    const nb::gil_scoped_release released;
+    actions_ = Eigen::Map<const rl::Rows>(actions.data(), size(), action_size());
+    if (cameras_) last_images_ = std::make_unique<EpisodeImages>(*cameras_, size(), last_choice_);
+    environment_.Step(actions_, &batch_);
+  }
+  return nb::make_tuple(
+      CopyOf(batch_.observations), CopyOf(batch_.rewards), FlagsOf(batch_.terminated),
+      FlagsOf(batch_.truncated), FlagsOf(batch_.success),
+      EndedOne() ? nb::cast(CopyOf(batch_.last_observations)) : nb::none(),
+      FlagsOf(environment_.invalid_actions()), FlagsOf(environment_.failed_physics()));
+}
+
+bool VectorEpisodes::EndedOne() const {
+  for (size_t i = 0; i < batch_.terminated.size(); ++i) {
+    if (batch_.terminated[i] || batch_.truncated[i]) return true;
+  }
+  return false;
+}
+
+void VectorEpisodes::LookAtEnd(int index, const skills::Episode& episode) {
+  skills::EpisodeView& view = views_[static_cast<size_t>(index)];
+  view.Pose(episode);
+  for (int camera = 0; camera < cameras_->size(); ++camera) {
+    view.Render(camera, last_images_->At(index, camera));
+  }
+}
+
+nb::dict VectorEpisodes::Images(const std::vector<std::string>& names,
+                                const std::vector<std::string>& kinds) {
+  RequireStarted();
+  RequireCameras(cameras_);
+  EpisodeImages images(*cameras_, size(), ImageChoice::Of(*cameras_, names, kinds));
+  {
+    const nb::gil_scoped_release released;
+    skills::RenderEnvironment(environment_, seed_, &views_, images.All());
+  }
+  return images.Take(false);
+}
+
+nb::object VectorEpisodes::LastImages() {
+  RequireCameras(cameras_);
+  if (!EndedOne() || !last_images_) return nb::none();
+  return std::exchange(last_images_, nullptr)->Take(false);
+}
+
+nb::object VectorEpisodes::Demonstrate() const {
+  RequireStarted();
+  rl::Rows actions;
+  if (!environment_.Demonstrate(&actions)) return nb::none();
+  return nb::cast(CopyOf(actions));
+}
+
+SingleEpisode::SingleEpisode(const PreparedTask& task, int subtask, bool evaluated)
+    : skill_(task.SkillAt(subtask, evaluated)),
+      episode_(*skill_),
+      observation_size_(skills::Observer(*skill_, skill_->variants.front()).size()) {}
+
+void SingleEpisode::RequireStarted() const {
+  if (!started_) throw core::Error("has not begun", "the episode", "call reset() first");
+}
+
+void SingleEpisode::AttachCameras(std::shared_ptr<const skills::EpisodeCameras> cameras) {
+  RequireCamerasOf(*skill_, *cameras);
+  cameras_ = std::move(cameras);
+  view_.emplace(cameras_);
+  if (started_) view_->Begin(episode_.start().variant, look_seed_);
+}
+
+FloatArray SingleEpisode::Observe() const {
+  auto [array, memory] = NewArray<float>({static_cast<size_t>(observation_size_)});
+  episode_.Observe(memory);
+  return array;
+}
+
+FloatArray SingleEpisode::Begin(std::uint64_t seed, std::uint64_t index) {
+  {
+    const nb::gil_scoped_release released;
+    rng_ = core::StreamRng(seed, index);
+    episode_.Begin(skills::SampleStart(*skill_, rng_));
+    look_seed_ = core::StreamRng(seed, index)();
+    if (view_) view_->Begin(episode_.start().variant, look_seed_);
+    started_ = true;
+  }
+  return Observe();
+}
+
+FloatArray SingleEpisode::BeginAfter(const SingleEpisode& previous) {
+  previous.RequireStarted();
+  {
+    const nb::gil_scoped_release released;
+    rng_ = previous.rng_;
+    look_seed_ = previous.look_seed_;
+    episode_.Begin(skills::PlannedFrom(*skill_, skills::EndOf(previous.episode_), rng_,
+                                       skills::Resampling::kNothing));
+    if (view_) view_->Begin(episode_.start().variant, look_seed_);
+    started_ = true;
+  }
+  return Observe();
+}
+
+nb::tuple SingleEpisode::Step(const ActionArgument& action) {
+  RequireStarted();
+  if (action.shape(0) != static_cast<size_t>(ActionSize(*skill_))) {
+    throw core::Error("has " + std::to_string(action.shape(0)) + " numbers", "action",
+                      "give " + std::to_string(ActionSize(*skill_)));
+  }
+  skills::Decision decision;
+  {
+    const nb::gil_scoped_release released;
+    decision = episode_.Step(action.data());
+  }
+  return nb::make_tuple(Observe(), decision.reward, decision.terminated, decision.truncated,
+                        decision.success, decision.invalid_action,
+                        decision.failed && !decision.invalid_action);
+}
+
+skills::EpisodeView& SingleEpisode::PosedView() {
+  RequireStarted();
+  RequireCameras(cameras_);
+  view_->Pose(episode_);
+  return *view_;
+}
+
+nb::dict SingleEpisode::Images(const std::vector<std::string>& names,
+                               const std::vector<std::string>& kinds) {
+  const skills::EpisodeView& view = PosedView();
+  EpisodeImages images(*cameras_, 1, ImageChoice::Of(*cameras_, names, kinds));
+  {
+    const nb::gil_scoped_release released;
+    skills::RenderViews({&view}, images.All());
+  }
+  return images.Take(true);
+}
+
+nb::dict SingleEpisode::Camera(const std::string& name) {
+  const core::Camera camera = PosedView().Camera(cameras_->Find(name));
+  nb::dict dict;
+  dict["pose"] = Eigen::Matrix4d(camera.world_from_camera.matrix());
+  dict["intrinsics"] = nb::make_tuple(camera.fx, camera.fy, camera.cx, camera.cy);
+  dict["legend"] = nb::cast(cameras_).attr("legend")(episode_.start().variant);
+  return dict;
+}
+
+nb::object SingleEpisode::ExpertAction() const {
+  RequireStarted();
+  if (skill_->options.action != skills::ActionSpace::kTargetFrame) return nb::none();
+  std::vector<float> action(static_cast<size_t>(ActionSize(*skill_)));
+  skills::ExpertAction(episode_, action.data());
+  return nb::cast(CopyOf(action));
+}
+
+nb::dict SingleEpisode::State() const {
+  RequireStarted();
+  const tasks::WorldState& state = episode_.state();
+  const skills::SkillVariant& variant =
+      skill_->variants[static_cast<size_t>(episode_.start().variant)];
+  nb::dict objects;
+  for (size_t i = 0; i < variant.model.objects.size(); ++i) {
+    const tasks::ArticulatedObject& object = variant.model.objects[i];
+    nb::dict joints;
+    for (size_t j = 0; j < object.joints.size(); ++j) {
+      joints[object.joints[j].name.c_str()] = state.joints[i][j];
+    }
+    nb::dict entry;
+    entry["pose"] = Eigen::Matrix4d(state.roots[i].matrix());
+    entry["joints"] = joints;
+    objects[object.name.c_str()] = entry;
+  }
+  Eigen::VectorXd positions;
+  episode_.world().robot().Positions(&positions);
+  nb::dict dict;
+  dict["robot_joints"] = positions;
+  dict["robot_command"] = Eigen::VectorXd(episode_.command().sent);
+  dict["gripper_pose"] = Eigen::Matrix4d(state.gripper.matrix());
+  dict["gripper_opening"] = state.opening;
+  dict["grasped"] = state.grasped;
+  dict["objects"] = objects;
+  dict["target"] =
+      variant.target ? variant.model.objects[static_cast<size_t>(variant.target->object)].name : "";
+  dict["seconds"] = episode_.seconds();
+  return dict;
+}
+
 void BindEnvironments(nb::module_& module) {
-  nb::class_<VectorEpisodes>(module, "VectorEpisodes",
-                             "N episodes of a subtask, each restarted in the step in which it ends.")
+  nb::class_<VectorEpisodes>(
+      module, "VectorEpisodes",
+      "N episodes of a subtask, each restarted in the step in which it ends.")
       .def(nb::init<const PreparedTask&, int, int, bool>(), "task"_a, "subtask"_a, "count"_a,
            "evaluated"_a = false)
+      .def("attach_cameras", &VectorEpisodes::AttachCameras, "cameras"_a, "names"_a, "kinds"_a)
       .def("reset", &VectorEpisodes::Reset, "seed"_a, "Restarts all episodes; returns (N, O).")
       .def("step", &VectorEpisodes::Step, "actions"_a,
            "Executes `actions` (N, A) float32, clamped to [-1, 1]. Returns observations (N, O), "
            "rewards (N), terminated, truncated and success (N, bool), the last observations of "
            "ended episodes (N, O) or None, and the flags of invalid actions and failed physics.")
+      .def("images", &VectorEpisodes::Images, "names"_a, "kinds"_a)
+      .def("last_images", &VectorEpisodes::LastImages)
       .def("demonstrate", &VectorEpisodes::Demonstrate,
            "Returns the scripted expert's actions (N, A), or None.")
       .def_prop_ro("size", &VectorEpisodes::size)
       .def_prop_ro("observation_size", &VectorEpisodes::observation_size)
       .def_prop_ro("action_size", &VectorEpisodes::action_size);
   nb::class_<SingleEpisode>(module, "SingleEpisode", "One episode at a time of a subtask.")
-      .def(nb::init<const PreparedTask&, int, bool>(), "task"_a, "subtask"_a,
-           "evaluated"_a = false)
+      .def(nb::init<const PreparedTask&, int, bool>(), "task"_a, "subtask"_a, "evaluated"_a = false)
+      .def("attach_cameras", &SingleEpisode::AttachCameras, "cameras"_a)
       .def("begin", &SingleEpisode::Begin, "seed"_a, "index"_a = 0)
       .def("begin_after", &SingleEpisode::BeginAfter, "previous"_a)
       .def("step", &SingleEpisode::Step, "action"_a)
+      .def("images", &SingleEpisode::Images, "names"_a, "kinds"_a)
+      .def("camera", &SingleEpisode::Camera, "name"_a)
       .def("expert_action", &SingleEpisode::ExpertAction)
-      .def("state", &SingleEpisode::State)
-      .def_prop_ro("task_object", &SingleEpisode::TaskObject);
+      .def("state", &SingleEpisode::State);
 }
 
 }  // namespace simwright::python

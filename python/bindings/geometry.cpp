@@ -44,7 +44,8 @@ nb::tuple Decompose(const core::TriangleMesh& solid, const geometry::Decompositi
 
 void BindGeometry(nb::module_& module) {
   using geometry::MassProperties;
-  nb::class_<MassProperties>(module, "MassProperties", "Volume, mass, centre and inertia. Constant.")
+  nb::class_<MassProperties>(module, "MassProperties",
+                             "Volume, mass, centre and inertia. Constant.")
       .def_ro("volume", &MassProperties::volume, "m^3, of the material")
       .def_ro("mass", &MassProperties::mass, "kg")
       .def_ro("center_of_mass", &MassProperties::center_of_mass, "(3) m, in the mesh's frame")
@@ -67,8 +68,7 @@ void BindGeometry(nb::module_& module) {
         options.seed = seed;
         return Decompose(solid, options, report);
       },
-      "solid"_a, "threshold"_a, "max_parts"_a, "max_vertices"_a, "seed"_a,
-      "report"_a = nb::none());
+      "solid"_a, "threshold"_a, "max_parts"_a, "max_vertices"_a, "seed"_a, "report"_a = nb::none());
 }
 
 }  // namespace simwright::python

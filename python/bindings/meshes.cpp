@@ -8,9 +8,9 @@
 #include <nanobind/stl/vector.h>
 
 #include "arrays.h"
+#include "assets/mesh_import.h"
 #include "bindings.h"
 #include "calls.h"
-#include "assets/mesh_import.h"
 #include "core/error.h"
 #include "core/finding.h"
 #include "core/mesh.h"
@@ -113,9 +113,8 @@ void BindTexturedMesh(nb::module_& module) {
           "mesh"_a, "color"_a = Eigen::Vector4f(0.75f, 0.75f, 0.75f, 1.0f),
           "A mesh of one colour (4): RGBA in [0, 1], sRGB.")
       .def_prop_ro(
-          "mesh", [](const core::TexturedMesh& mesh) -> const core::TriangleMesh& {
-            return mesh.mesh;
-          },
+          "mesh",
+          [](const core::TexturedMesh& mesh) -> const core::TriangleMesh& { return mesh.mesh; },
           nb::rv_policy::reference_internal)
       .def_prop_ro(
           "corner_uvs",
@@ -132,16 +131,21 @@ void BindTexturedMesh(nb::module_& module) {
             return View(mesh.triangle_material.data(), {mesh.triangle_material.size()}, self);
           },
           "(M) int32, indices of materials; a view")
-      .def_prop_ro("materials", &MaterialsOf, "dicts of name, base_color (RGBA) and texture (index)")
+      .def_prop_ro("materials", &MaterialsOf,
+                   "dicts of name, base_color (RGBA) and texture (index)")
       .def_prop_ro("textures", &TexturesOf, "(H, W, C) uint8 each, sRGB")
-      .def("__repr__", [](const core::TexturedMesh& mesh) { return "Textured" + MeshText(mesh.mesh); });
+      .def("__repr__",
+           [](const core::TexturedMesh& mesh) { return "Textured" + MeshText(mesh.mesh); });
 }
 
 const char* SeverityName(const core::Finding& finding) {
   switch (finding.severity) {
-    case core::Severity::kInfo: return "info";
-    case core::Severity::kWarning: return "warning";
-    default: return "error";
+    case core::Severity::kInfo:
+      return "info";
+    case core::Severity::kWarning:
+      return "warning";
+    default:
+      return "error";
   }
 }
 

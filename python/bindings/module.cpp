@@ -25,6 +25,7 @@ NB_MODULE(_core, module) {
   python::BindRewards(module);
   python::BindTasks(module);
   python::BindSkills(module);
+  python::BindCameras(module);
   python::BindEnvironments(module);
   python::BindScenes(module);
 }

@@ -96,18 +96,24 @@ void BindPreparedTask(nb::module_& module) {
       .def_prop_ro("subtasks", &PreparedTask::SubtaskNames, "names, in order")
       .def_prop_ro("tasks", &PreparedTask::TaskNames, "names")
       .def("description", &PreparedTask::Description, "subtask"_a)
-      .def("observation_size", [](const PreparedTask& task, int subtask) {
+      .def(
+          "observation_size",
+          [](const PreparedTask& task, int subtask) {
             const skills::Skill& skill = *task.SkillAt(subtask, true);
             return skills::Observer(skill, skill.variants.front()).size();
-          }, "subtask"_a)
-      .def("action_size", [](const PreparedTask& task, int subtask) {
+          },
+          "subtask"_a)
+      .def(
+          "action_size",
+          [](const PreparedTask& task, int subtask) {
             return skills::ActionSize(*task.SkillAt(subtask, true));
-          }, "subtask"_a)
-      .def("decision_seconds", [](const PreparedTask& task) {
-            return task.run().options.decision_seconds();
-          })
-      .def("decisions", [](const PreparedTask& task) { return task.run().options.decisions(); },
-           "Returns the number of steps after which an episode is truncated.");
+          },
+          "subtask"_a)
+      .def("decision_seconds",
+           [](const PreparedTask& task) { return task.run().options.decision_seconds(); })
+      .def(
+          "decisions", [](const PreparedTask& task) { return task.run().options.decisions(); },
+          "Returns the number of steps after which an episode is truncated.");
 }
 
 }  // namespace simwright::python

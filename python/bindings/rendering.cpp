@@ -44,9 +44,12 @@ void BindCamera(nb::module_& module) {
       .def_ro("fy", &core::Camera::fy, "pixels")
       .def_ro("cx", &core::Camera::cx, "pixels")
       .def_ro("cy", &core::Camera::cy, "pixels")
-      .def_prop_ro("pose", [](const core::Camera& camera) {
+      .def_prop_ro(
+          "pose",
+          [](const core::Camera& camera) {
             return Eigen::Matrix4d(camera.world_from_camera.matrix());
-          }, "(4, 4) world from camera, m");
+          },
+          "(4, 4) world from camera, m");
   module.def("orbit_camera", &core::OrbitCamera, "target"_a, "distance"_a, "elevation"_a,
              "azimuth"_a, "vertical_fov"_a, "width"_a, "height"_a);
 }
@@ -66,7 +69,8 @@ nb::dict Render(const std::vector<const core::TexturedMesh*>& meshes, const core
     options.occlusion_rays = occlusion_rays;
     buffers = render::RenderForward(scene, camera, options);
   }
-  const auto height = static_cast<size_t>(buffers.height), width = static_cast<size_t>(buffers.width);
+  const auto height = static_cast<size_t>(buffers.height),
+             width = static_cast<size_t>(buffers.width);
   auto [normal, memory] = NewArray<float>({height, width, 3});
   for (size_t i = 0; i < buffers.normal.size(); ++i) {
     std::copy_n(buffers.normal[i].data(), 3, memory + 3 * i);
@@ -92,9 +96,9 @@ core::FloatImage ImageOf(const ImageArgument& array) {
 
 nb::ndarray<nb::numpy, float> ArrayOf(const core::FloatImage& image) {
   std::vector<float> values = image.values;
-  return Owned(std::move(values), {static_cast<size_t>(image.height),
-                                   static_cast<size_t>(image.width),
-                                   static_cast<size_t>(image.channels)});
+  return Owned(std::move(values),
+               {static_cast<size_t>(image.height), static_cast<size_t>(image.width),
+                static_cast<size_t>(image.channels)});
 }
 
 std::vector<Eigen::Vector3d> PointsOf(const PointsArgument& array) {
@@ -113,12 +117,12 @@ nb::ndarray<nb::numpy, Number> ArrayOf(const std::vector<Vector>& rows) {
 // One mesh with one colour per vertex or a texture, and its renderer.
 class BoundRenderer {
  public:
-  BoundRenderer(const core::TriangleMesh& mesh, const std::optional<PointsArgument>& colors,
-                const std::optional<ImageArgument>& texture,
-                const std::optional<nb::ndarray<const float, nb::shape<-1, 2>, nb::c_contig,
-                                                nb::device::cpu>>& corner_uvs,
-                bool lit, bool smooth_normals, bool render_normals, int samples_per_side,
-                int edge_samples) {
+  BoundRenderer(
+      const core::TriangleMesh& mesh, const std::optional<PointsArgument>& colors,
+      const std::optional<ImageArgument>& texture,
+      const std::optional<
+          nb::ndarray<const float, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>>& corner_uvs,
+      bool lit, bool smooth_normals, bool render_normals, int samples_per_side, int edge_samples) {
     render::DifferentiableObject object;
     object.mesh = mesh;
     if (colors) object.vertex_colors = ColorsOf(*colors);
@@ -137,7 +141,9 @@ class BoundRenderer {
         std::vector<render::DifferentiableObject>{std::move(object)}, options);
   }
 
-  void SetVertices(const PointsArgument& vertices) { renderer_->SetVertices(0, PointsOf(vertices)); }
+  void SetVertices(const PointsArgument& vertices) {
+    renderer_->SetVertices(0, PointsOf(vertices));
+  }
   void SetColors(const PointsArgument& colors) { renderer_->SetVertexColors(0, ColorsOf(colors)); }
   void SetTexture(const ImageArgument& texture) { renderer_->SetTexture(0, ImageOf(texture)); }
   void SetLight(const Matrix93& radiance) {
@@ -210,8 +216,8 @@ void BindRendering(nb::module_& module) {
   nb::class_<BoundRenderer>(module, "DifferentiableRenderer")
       .def(nb::init<const core::TriangleMesh&, const std::optional<PointsArgument>&,
                     const std::optional<ImageArgument>&,
-                    const std::optional<nb::ndarray<const float, nb::shape<-1, 2>, nb::c_contig,
-                                                    nb::device::cpu>>&,
+                    const std::optional<
+                        nb::ndarray<const float, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>>&,
                     bool, bool, bool, int, int>(),
            "mesh"_a, "colors"_a.none(), "texture"_a.none(), "corner_uvs"_a.none(), "lit"_a,
            "smooth_normals"_a, "render_normals"_a, "samples_per_side"_a, "edge_samples"_a)

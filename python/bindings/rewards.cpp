@@ -89,10 +89,9 @@ class BoundProgram {
       }
       const auto rows = static_cast<size_t>(slot.uniform ? 1 : count);
       if (found->second.size() != rows * static_cast<size_t>(slot.width)) {
-        throw core::Error("has " + std::to_string(found->second.size()) + " numbers",
-                          "the input '" + key + "'",
-                          "give an array of shape " + slot.shape + " with N = " +
-                              std::to_string(count));
+        throw core::Error(
+            "has " + std::to_string(found->second.size()) + " numbers", "the input '" + key + "'",
+            "give an array of shape " + slot.shape + " with N = " + std::to_string(count));
       }
       bindings.push_back({found->second.data()});
       ++used[key];

@@ -35,12 +35,12 @@ using scene::SceneObject;
 
 void MakeSceneObject(SceneObject* self, const std::string& category, const Eigen::Matrix4d& pose,
                      bool welded) {
-  const bool rigid =
-      pose.allFinite() && (pose.row(3) - Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)).norm() < 1e-9 &&
-      (pose.topLeftCorner<3, 3>() * pose.topLeftCorner<3, 3>().transpose() -
-       Eigen::Matrix3d::Identity())
-              .norm() < 1e-6 &&
-      pose.topLeftCorner<3, 3>().determinant() > 0.0;
+  const bool rigid = pose.allFinite() &&
+                     (pose.row(3) - Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)).norm() < 1e-9 &&
+                     (pose.topLeftCorner<3, 3>() * pose.topLeftCorner<3, 3>().transpose() -
+                      Eigen::Matrix3d::Identity())
+                             .norm() < 1e-6 &&
+                     pose.topLeftCorner<3, 3>().determinant() > 0.0;
   if (!rigid) {
     throw core::Error("is not a rigid transform", "pose",
                       "give a (4, 4) matrix with a proper rotation");
@@ -57,7 +57,8 @@ void BindSceneObject(nb::module_& module) {
       .def_ro("category", &SceneObject::category)
       .def_ro("welded", &SceneObject::welded, "fixed furniture")
       .def_prop_ro(
-          "pose", [](const SceneObject& object) {
+          "pose",
+          [](const SceneObject& object) {
             return Eigen::Matrix4d(object.world_from_object.matrix());
           },
           "(4, 4) world from object, m")

@@ -37,12 +37,11 @@ nb::ndarray<nb::numpy, float> Act(const rl::Policy& policy, const RowsArgument& 
                static_cast<std::size_t>(policy.observation_size()), "observations");
   const auto rows = static_cast<Eigen::Index>(observations.shape(0));
   const auto columns = static_cast<Eigen::Index>(policy.action_size());
-  auto [array, memory] =
-      NewArray<float>({static_cast<size_t>(rows), static_cast<size_t>(columns)});
+  auto [array, memory] = NewArray<float>({static_cast<size_t>(rows), static_cast<size_t>(columns)});
   {
     const nb::gil_scoped_release released;
-    const rl::Rows inputs = Eigen::Map<const rl::Rows>(observations.data(), rows,
-                                                       policy.observation_size());
+    const rl::Rows inputs =
+        Eigen::Map<const rl::Rows>(observations.data(), rows, policy.observation_size());
     rl::Rows actions;
     policy.Act(inputs, &actions);
     Eigen::Map<rl::Rows>(memory, rows, columns) = actions;
@@ -73,9 +72,10 @@ nb::dict EvaluationDict(const skills::SkillEvaluation& evaluation) {
 
 void BindPolicy(nb::module_& module) {
   nb::class_<rl::Policy>(module, "Policy", "A trained policy, frozen; thread-safe.")
-      .def("act", &Act, "observations"_a,
-           "Returns the mean actions (n, A) float32 in [-1, 1] of `observations` (n, O) float32.\n\n"
-           "Raises:\n    Error: for another number of columns.")
+      .def(
+          "act", &Act, "observations"_a,
+          "Returns the mean actions (n, A) float32 in [-1, 1] of `observations` (n, O) float32.\n\n"
+          "Raises:\n    Error: for another number of columns.")
       .def_prop_ro("observation_size", &rl::Policy::observation_size, "O")
       .def_prop_ro("action_size", &rl::Policy::action_size, "A")
       .def_prop_ro("metadata", &rl::Policy::metadata, "What the file states (str to str).")

@@ -32,9 +32,8 @@ nb::object MakeTasks(const std::vector<std::string>& assets, const fs::path& out
   request.count = count;
   request.seed = seed;
   request.force = force;
-  return FromJson(workflows::TasksJson(RunLong(report, [&](core::Progress* progress) {
-    return workflows::MakeTasks(request, progress);
-  })));
+  return FromJson(workflows::TasksJson(RunLong(
+      report, [&](core::Progress* progress) { return workflows::MakeTasks(request, progress); })));
 }
 
 nb::object TrainTask(const fs::path& file, const std::vector<std::string>& tasks,
@@ -55,9 +54,8 @@ nb::object TrainTask(const fs::path& file, const std::vector<std::string>& tasks
   request.episodes = episodes;
   request.seed = seed;
   request.resume = resume;
-  return FromJson(workflows::TrainJson(RunLong(report, [&](core::Progress* progress) {
-    return workflows::TrainTask(request, progress);
-  })));
+  return FromJson(workflows::TrainJson(RunLong(
+      report, [&](core::Progress* progress) { return workflows::TrainTask(request, progress); })));
 }
 
 nb::object Rollout(const fs::path& run, int episodes, std::uint64_t seed, const fs::path& on,
@@ -70,9 +68,8 @@ nb::object Rollout(const fs::path& run, int episodes, std::uint64_t seed, const 
   request.on = on;
   request.tasks = tasks;
   request.pictures = pictures;
-  return FromJson(workflows::RolloutJson(RunLong(report, [&](core::Progress* progress) {
-    return workflows::Rollout(request, progress);
-  })));
+  return FromJson(workflows::RolloutJson(RunLong(
+      report, [&](core::Progress* progress) { return workflows::Rollout(request, progress); })));
 }
 
 nb::object ExportRun(const fs::path& run, const fs::path& output, const std::string& format,
@@ -90,9 +87,8 @@ nb::object ExportRun(const fs::path& run, const fs::path& output, const std::str
   } else if (format != "ros2") {
     throw core::Error("is '" + format + "'", "format", "give ros2, csv or robomimic");
   }
-  return FromJson(workflows::ExportJson(RunLong(report, [&](core::Progress* progress) {
-    return workflows::Export(request, progress);
-  })));
+  return FromJson(workflows::ExportJson(RunLong(
+      report, [&](core::Progress* progress) { return workflows::Export(request, progress); })));
 }
 
 }  // namespace
@@ -100,9 +96,9 @@ nb::object ExportRun(const fs::path& run, const fs::path& output, const std::str
 void BindTasks(nb::module_& module) {
   module.def("make_tasks", &MakeTasks, "assets"_a, "output"_a, "count"_a, "seed"_a, "force"_a,
              "report"_a = nb::none());
-  module.def("train_task", &TrainTask, "file"_a, "tasks"_a, "output"_a, "robot"_a,
-             "action_space"_a, "environments"_a, "samples"_a, "minutes"_a, "imitated_samples"_a,
-             "episodes"_a, "seed"_a, "resume"_a, "report"_a = nb::none());
+  module.def("train_task", &TrainTask, "file"_a, "tasks"_a, "output"_a, "robot"_a, "action_space"_a,
+             "environments"_a, "samples"_a, "minutes"_a, "imitated_samples"_a, "episodes"_a,
+             "seed"_a, "resume"_a, "report"_a = nb::none());
   module.def("rollout", &Rollout, "run"_a, "episodes"_a, "seed"_a, "on"_a, "tasks"_a, "pictures"_a,
              "report"_a = nb::none());
   module.def("export_run", &ExportRun, "run"_a, "output"_a, "format"_a, "episodes"_a, "seed"_a,

@@ -39,7 +39,7 @@ Mesh = _core.Mesh
 TexturedMesh = _core.TexturedMesh
 __version__ = _core.__version__
 
-from . import assets, geometry, physics, render, rewards, scenes, skills, tasks  # noqa: E402
+from . import assets, cameras, geometry, physics, render, rewards, scenes, skills, tasks  # noqa: E402
 from ._arguments import mesh  # noqa: E402
 from ._progress import set_progress  # noqa: E402
 
@@ -56,6 +56,6 @@ if _gymnasium is not None:
     _register_envs()
 
 __all__ = [
-    "Error", "Finding", "Mesh", "TexturedMesh", "assets", "geometry", "mesh", "physics", "render",
+    "Error", "Finding", "Mesh", "TexturedMesh", "assets", "cameras", "geometry", "mesh", "physics", "render",
     "rewards", "scenes", "set_progress", "set_threads", "skills", "tasks", "threads",
 ]

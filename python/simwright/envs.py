@@ -17,6 +17,7 @@ from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 
 from . import _core
+from . import cameras as _cameras
 from ._cells import cell_tasks, long_task
 from ._progress import reporter
 
@@ -24,6 +25,9 @@ __all__ = ["LongTaskEnv", "SkillEnv", "SkillVectorEnv", "register_envs"]
 
 # robosuite's OSC_POSE moves by at most 0.05 m and 0.5 rad a step; 1 closes its gripper.
 _OSC_SETTINGS = {"reach": 0.2, "turn": 2.0, "delta_share": 0.25}
+# The camera of render(): behind and to the right of the robot, in the frame of its base, m.
+_RENDER_POSITION = (-0.35, -1.75, 1.45)
+_RENDER_TARGET = (0.5, 0.1, 0.3)
 _ACTION_SPACES = ("focus", "guided", "delta", "osc_delta", "absolute", "joints", "joint_targets")
 
 
@@ -77,17 +81,79 @@ def _fault(action, failed_physics, environment=None):
     return f"the action{where} is not finite in {bad}"
 
 
-class _Closable:
-    """What the environments share: they can be closed once, and say so afterwards."""
+class _Worlds:
+    """What the environments share: their images, and that they can be closed once."""
 
     _open = True
+    _eyes = None  # EpisodeCameras
 
     def _require_open(self):
         if not self._open:
             raise _core.Error("the environment: is closed (make a new one)")
 
+    def _choose_cameras(self, cameras, image_size, images, look, render_mode, render_size):
+        """Reads the arguments about cameras; returns the spaces of the images by key."""
+        if render_mode not in (None, "rgb_array"):
+            raise _core.Error(f"render_mode: is {render_mode!r} (give None or 'rgb_array')")
+        self.render_mode = render_mode
+        self._kinds = [images] if isinstance(images, str) else list(images)
+        specs = _cameras.chosen(cameras, image_size)
+        self._seen = [spec.name for spec in specs]
+        if "render" in self._seen or "state" in self._seen:
+            raise _core.Error("cameras: 'render' and 'state' are taken (choose another name)")
+        self._specs = list(specs)
+        if render_mode is not None:
+            width, height = render_size
+            self._specs.append(_cameras.camera("render", position=_RENDER_POSITION,
+                                               target=_RENDER_TARGET, mount="robot", width=width,
+                                               height=height))
+        self._look = _cameras.look(look)
+        shapes = {"rgb": (3,), "normal": (3,)}
+        limits = {"rgb": (0, 255, np.uint8), "depth": (0.0, np.inf, np.float32),
+                  "segmentation": (-1, np.iinfo(np.int32).max, np.int32),
+                  "normal": (-1.0, 1.0, np.float32)}
+        found = {}
+        for spec in specs:
+            for kind in self._kinds:
+                if kind not in limits:
+                    raise _core.Error(f"images: there is no '{kind}' "
+                                      f"(give {', '.join(_cameras.KINDS)})")
+                low, high, dtype = limits[kind]
+                shape = (spec.height, spec.width) + shapes.get(kind, ())
+                found[self._key(spec.name, kind)] = spaces.Box(low, high, shape, dtype)
+        return found
 
-class SkillEnv(_Closable, gymnasium.Env):
+    @staticmethod
+    def _key(camera, kind):
+        return camera if kind == "rgb" else f"{camera}_{kind}"
+
+    def _make_cameras(self, subtask, evaluated):
+        """Returns the cameras of a subtask, or None if there are none."""
+        if not self._specs:
+            return None
+        return _core.EpisodeCameras(self.task, subtask, evaluated, self._specs, self._look, 1)
+
+    def _space(self, state, images):
+        return spaces.Dict({"state": state, **images}) if images else state
+
+    def _with_images(self, state, images):
+        """Returns the observation of a state and the images by camera and kind."""
+        if not self._seen:
+            return state
+        observation = {"state": state}
+        for camera, kinds in images.items():
+            for kind, pixels in kinds.items():
+                observation[self._key(camera, kind)] = pixels
+        return observation
+
+    def _require_render(self):
+        self._require_open()
+        if self.render_mode is None:
+            raise _core.Error("render: the environment has no render_mode (make it with "
+                              "render_mode='rgb_array')")
+
+
+class SkillEnv(_Worlds, gymnasium.Env):
     """One subtask with a Franka Panda, in Bullet.
 
     Args:
@@ -99,7 +165,14 @@ class SkillEnv(_Closable, gymnasium.Env):
         robot (str): panda, panda_on_base, or a URDF with its side file; None: the cell's.
         easy_starts (bool): a share of episodes starts at the target, or with its joint partly open.
         episode_seconds (float): s, then the episode is truncated.
+        cameras (list): "front", "wrist" or ``simwright.cameras.camera(...)``. With cameras the
+            observation is a dict of "state" and the images: NAME (H, W, 3) uint8 RGB, NAME_depth
+            (H, W) float32, m, NAME_segmentation (H, W) int32, NAME_normal (H, W, 3) float32, world.
+        image_size (int, or width and height): pixels, of "front" and "wrist".
+        images (list): kinds of images: "rgb", "depth", "segmentation", "normal".
+        look: how the look is randomised by the seed: None, "wide", or see ``simwright.cameras``.
         render_mode (str): None or "rgb_array".
+        render_size (width, height): pixels, of ``render()``.
         progress: see ``simwright``; making the objects of a cell takes up to a minute once.
 
     Observations are (O) float32, about 1 in size (docs/skills.md). ``info`` has ``success`` (the
@@ -111,14 +184,18 @@ class SkillEnv(_Closable, gymnasium.Env):
 
     def __init__(self, cell=None, tasks=None, task="*", subtask=0, split="train", instances=None,
                  action_space="focus", robot=None, easy_starts=False, episode_seconds=None,
-                 render_mode=None, progress=None):
+                 cameras=(), image_size=128, images=("rgb",), look=None, render_mode=None,
+                 render_size=(480, 360), progress=None):
         self.task = _prepare(cell, tasks, task, robot, action_space, split, instances,
                              episode_seconds, progress)
-        self.render_mode = render_mode
+        pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
         self._flip_gripper = action_space == "osc_delta"
         self._episode = _core.SingleEpisode(self.task, int(subtask), not easy_starts)
-        self.observation_space = spaces.Box(-np.inf, np.inf, (self.task.observation_size(subtask),),
-                                            np.float32)
+        self._eyes = self._make_cameras(int(subtask), not easy_starts)
+        if self._eyes is not None:
+            self._episode.attach_cameras(self._eyes)
+        self.observation_space = self._space(
+            spaces.Box(-np.inf, np.inf, (self.task.observation_size(subtask),), np.float32), pictures)
         self.action_space = spaces.Box(-1.0, 1.0, (self.task.action_size(subtask),), np.float32)
         self._seed = None
         self._index = 0
@@ -135,7 +212,12 @@ class SkillEnv(_Closable, gymnasium.Env):
             self._index += 1
         observation = self._episode.begin(self._seed, self._index)
         self._running = True
-        return observation, {"success": False, "is_success": False}
+        return self._observation(observation), {"success": False, "is_success": False}
+
+    def _observation(self, state):
+        if not self._seen:
+            return state
+        return self._with_images(state, self._episode.images(self._seen, self._kinds))
 
     def step(self, action):
         """Executes an action (A), clamped to [-1, 1]; one that is not finite ends the episode."""
@@ -151,7 +233,18 @@ class SkillEnv(_Closable, gymnasium.Env):
             info["fault"] = _fault(action, failed)
             held, truncated = invalid, not invalid
         self._running = not (held or truncated)
-        return observation, float(reward), held, truncated, info
+        return self._observation(observation), float(reward), held, truncated, info
+
+    def render(self):
+        """Returns the picture (H, W, 3) uint8 of the robot and its objects."""
+        self._require_render()
+        return self._episode.images(["render"], ["rgb"])["render"]["rgb"]
+
+    def camera(self, name):
+        """Returns a camera as it is now: ``pose`` (4, 4), world from camera, m; ``intrinsics`` (fx,
+        fy, cx, cy), pixels; ``legend``, the names of the segmentation's labels."""
+        self._require_open()
+        return self._episode.camera(name)
 
     def expert_action(self):
         """Returns the scripted expert's action (A), or None where there is none."""
@@ -168,7 +261,7 @@ class SkillEnv(_Closable, gymnasium.Env):
         self._open = False
 
 
-class SkillVectorEnv(_Closable, gymnasium.vector.VectorEnv):
+class SkillVectorEnv(_Worlds, gymnasium.vector.VectorEnv):
     """N environments of a subtask, stepped in C++ on all threads.
 
     An episode that ends restarts in the same step (``AutoresetMode.SAME_STEP``): ``final_obs`` in
@@ -180,15 +273,19 @@ class SkillVectorEnv(_Closable, gymnasium.vector.VectorEnv):
 
     def __init__(self, num_envs=1, cell=None, tasks=None, task="*", subtask=0, split="train",
                  instances=None, action_space="focus", robot=None, easy_starts=False,
-                 episode_seconds=None, render_mode=None, progress=None):
+                 episode_seconds=None, cameras=(), image_size=128, images=("rgb",), look=None,
+                 render_mode=None, render_size=(480, 360), progress=None):
         self.num_envs = int(num_envs)
-        self.render_mode = render_mode
         self.task = _prepare(cell, tasks, task, robot, action_space, split, instances,
                              episode_seconds, progress)
         self._flip_gripper = action_space == "osc_delta"
+        pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
         self._episodes = _core.VectorEpisodes(self.task, int(subtask), self.num_envs, not easy_starts)
-        self.single_observation_space = spaces.Box(
-            -np.inf, np.inf, (self._episodes.observation_size,), np.float32)
+        self._eyes = self._make_cameras(int(subtask), not easy_starts)
+        if self._eyes is not None:
+            self._episodes.attach_cameras(self._eyes, self._seen, self._kinds)
+        self.single_observation_space = self._space(
+            spaces.Box(-np.inf, np.inf, (self._episodes.observation_size,), np.float32), pictures)
         self.single_action_space = spaces.Box(-1.0, 1.0, (self._episodes.action_size,), np.float32)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
@@ -210,7 +307,12 @@ class SkillVectorEnv(_Closable, gymnasium.vector.VectorEnv):
         if seed is None:
             seed = int(self.np_random.integers(2**62))
         observations = self._episodes.reset(int(seed))
-        return observations, self._info(np.zeros(self.num_envs, dtype=bool))
+        return self._observation(observations), self._info(np.zeros(self.num_envs, dtype=bool))
+
+    def _observation(self, states):
+        if not self._seen:
+            return states
+        return self._with_images(states, self._episodes.images(self._seen, self._kinds))
 
     def _info(self, success):
         return {"success": success, "_success": np.ones(self.num_envs, dtype=bool)}
@@ -228,8 +330,11 @@ class SkillVectorEnv(_Closable, gymnasium.vector.VectorEnv):
             terminated, truncated = terminated | invalid, truncated & ~invalid
             ended = terminated | truncated
             final = np.full(self.num_envs, None, dtype=object)
+            if self._seen:
+                last = self._with_images(last, self._episodes.last_images())
             for index in np.flatnonzero(ended):
-                final[index] = last[index]
+                final[index] = ({key: value[index] for key, value in last.items()}
+                                if self._seen else last[index])
             infos["final_obs"], infos["_final_obs"] = final, ended
             final_info = {"is_success": success & ended, "_is_success": ended.copy()}
             faults = invalid | failed
@@ -239,7 +344,12 @@ class SkillVectorEnv(_Closable, gymnasium.vector.VectorEnv):
                     text[index] = _fault(actions[index], failed[index], index)
                 final_info["fault"], final_info["_fault"] = text, faults
             infos["final_info"], infos["_final_info"] = final_info, ended.copy()
-        return observations, rewards, terminated, truncated, infos
+        return self._observation(observations), rewards, terminated, truncated, infos
+
+    def render(self):
+        """Returns the pictures (H, W, 3) uint8 of the robots, one per environment."""
+        self._require_render()
+        return tuple(self._episodes.images(["render"], ["rgb"])["render"]["rgb"])
 
     def expert_actions(self):
         """Returns the scripted expert's actions (N, A), or None where there is none."""
@@ -250,7 +360,7 @@ class SkillVectorEnv(_Closable, gymnasium.vector.VectorEnv):
         self._open = False
 
 
-class LongTaskEnv(_Closable, gymnasium.Env):
+class LongTaskEnv(_Worlds, gymnasium.Env):
     """A task of several subtasks, one after the other.
 
     Observations: the index of the current subtask as a one-hot vector, then its observation, padded
@@ -262,7 +372,8 @@ class LongTaskEnv(_Closable, gymnasium.Env):
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
 
     def __init__(self, name=None, tasks=None, task="*", action_space="focus", robot=None,
-                 episode_seconds=None, render_mode=None, progress=None):
+                 episode_seconds=None, cameras=(), image_size=128, images=("rgb",), look=None,
+                 render_mode=None, render_size=(480, 360), progress=None):
         if (name is None) == (tasks is None):
             raise _core.Error("environment: needs a long task, or a tasks.json (give name= or tasks=)")
         if name is not None:
@@ -271,12 +382,17 @@ class LongTaskEnv(_Closable, gymnasium.Env):
             robot = robot or known["robot"]
         self.task = _prepare(None, tasks, task, robot, action_space, "train", None, episode_seconds,
                              progress)
-        self.render_mode = render_mode
+        pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
         self._flip_gripper = action_space == "osc_delta"
         count = len(self.task.subtasks)
         self._episodes = [_core.SingleEpisode(self.task, index, True) for index in range(count)]
+        for index, episode in enumerate(self._episodes):
+            eyes = self._make_cameras(index, True)
+            if eyes is not None:
+                episode.attach_cameras(eyes)
         self._longest = max(self.task.observation_size(index) for index in range(count))
-        self.observation_space = spaces.Box(-np.inf, np.inf, (count + self._longest,), np.float32)
+        self.observation_space = self._space(
+            spaces.Box(-np.inf, np.inf, (count + self._longest,), np.float32), pictures)
         self.action_space = spaces.Box(-1.0, 1.0, (self.task.action_size(0),), np.float32)
         self._subtask = 0
         self._seed = None
@@ -284,16 +400,25 @@ class LongTaskEnv(_Closable, gymnasium.Env):
         self._running = False
 
     def _observation(self, part):
-        whole = np.zeros(self.observation_space.shape, np.float32)
         count = len(self._episodes)
+        whole = np.zeros(count + self._longest, np.float32)
         whole[self._subtask] = 1.0
         whole[count:count + part.shape[0]] = part
-        return whole
+        if not self._seen:
+            return whole
+        episode = self._episodes[self._subtask]
+        return self._with_images(whole, episode.images(self._seen, self._kinds))
+
+    def render(self):
+        """Returns the picture (H, W, 3) uint8 of the robot and its objects."""
+        self._require_render()
+        return self._episodes[self._subtask].images(["render"], ["rgb"])["render"]["rgb"]
 
     def subtask_observation(self, observation):
         """Returns the current subtask's own observation, which its policy takes."""
+        state = observation["state"] if self._seen else observation
         count = len(self._episodes)
-        return observation[count:count + self.task.observation_size(self._subtask)]
+        return state[count:count + self.task.observation_size(self._subtask)]
 
     def reset(self, *, seed=None, options=None):
         """Starts the next episode of the seed; a new seed starts with its first one."""

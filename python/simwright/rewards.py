@@ -79,7 +79,11 @@ class Program:
                 raise _core.Error(f"the input '{key}': is on {value.device} (move it to the cpu)")
             value = value.numpy()
         try:
-            array = np.ascontiguousarray(value, dtype=np.float32)
+            array = np.asarray(value)
+            if array.dtype.kind not in "fiub":
+                raise TypeError(f"its type is {array.dtype}")
+            with np.errstate(over="ignore"):
+                array = np.ascontiguousarray(array, dtype=np.float32)
         except (TypeError, ValueError) as error:
             raise _core.Error(f"the input '{key}': is not an array of numbers ({error})") from None
         return array if array.ndim > 0 else array.reshape(1)

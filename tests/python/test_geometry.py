@@ -1,0 +1,86 @@
+"""Meshes and geometry against closed forms."""
+
+import numpy as np
+import pytest
+
+import simwright as sw
+
+
+def test_mesh_arrays_are_views(cube):
+    assert cube.vertices.shape == (8, 3) and cube.vertices.dtype == np.float64
+    assert cube.triangles.shape == (12, 3) and cube.triangles.dtype == np.int32
+    assert not cube.vertices.flags.owndata and not cube.vertices.flags.writeable
+    first, second = cube.vertices, cube.vertices
+    assert first.ctypes.data == second.ctypes.data
+    np.testing.assert_array_equal(cube.bounds, [[0, 0, 0], [1, 1, 1]])
+    assert cube.area == pytest.approx(6.0)
+
+
+def test_a_view_outlives_its_mesh():
+    mesh = sw.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    view = mesh.vertices
+    del mesh
+    np.testing.assert_array_equal(view[1], [1, 0, 0])
+
+
+def test_mass_properties_of_a_cube(cube):
+    found = sw.geometry.mass_properties(cube, 600.0)
+    assert found.mass == pytest.approx(600.0) and found.volume == pytest.approx(1.0)
+    np.testing.assert_allclose(found.center_of_mass, [0.5, 0.5, 0.5])
+    np.testing.assert_allclose(found.inertia, np.eye(3) * 600.0 / 6.0, atol=1e-9)
+    # A cube's wall of thickness t leaves a cube of side 1 - 2 t.
+    wall = sw.geometry.mass_properties(cube, 1000.0, wall_thickness=0.1)
+    assert wall.mass == pytest.approx(1000.0 * (1 - 0.8**3))
+    inertia = 1000.0 / 6.0 * (1 - 0.8**5)
+    np.testing.assert_allclose(wall.inertia, np.eye(3) * inertia, atol=1e-6)
+    sheet = sw.geometry.mass_properties(cube, 1000.0, wall_thickness=0.001, sheet=True)
+    assert sheet.mass == pytest.approx(6.0)
+
+
+def test_a_solid_of_two_overlapping_boxes(cube):
+    shifted = cube.vertices + [0.5, 0.0, 0.0]
+    soup = sw.mesh(np.vstack([cube.vertices, shifted]),
+                   np.vstack([cube.triangles, cube.triangles + 8]))
+    solid, facts = sw.geometry.make_solid(soup)
+    assert facts["method"] in ("as it is", "repaired", "wrapped")
+    volume = sw.geometry.mass_properties(solid, 1.0).volume
+    assert volume == pytest.approx(1.5, rel=0.02)
+
+
+def test_convex_parts_of_an_l_shape():
+    outline = np.array([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], dtype=float)
+    bottom = np.column_stack([outline, np.zeros(6)])
+    vertices = np.vstack([bottom, bottom + [0, 0, 1]])
+    faces = [[0, 3, 1], [1, 3, 2], [0, 5, 3], [3, 5, 4]]
+    triangles = faces + [[6 + a, 6 + c, 6 + b] for a, b, c in faces]
+    for i in range(6):
+        j = (i + 1) % 6
+        triangles += [[i, j, 6 + j], [i, 6 + j, 6 + i]]
+    solid = sw.mesh(vertices, triangles)
+    assert sw.geometry.mass_properties(solid, 1.0).volume == pytest.approx(3.0)
+    parts, facts = sw.geometry.decompose(solid)
+    assert len(parts) == 2 and facts["concavity"] < 0.05
+    volumes = [sw.geometry.mass_properties(part, 1.0).volume for part in parts]
+    assert sum(volumes) == pytest.approx(3.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("vertices, triangles, word", [
+    ([[0, 0]], [[0, 1, 2]], "shape"),
+    ([[0, 0, np.nan]] * 3, [[0, 1, 2]], "finite"),
+    ([[0, 0, 0]] * 3, [[0, 1, 7]], "missing vertex"),
+    ([[0, 0, 0]] * 3, [[0, 1, 2**40]], "large"),
+    ("mesh", [[0, 1, 2]], "real numbers"),
+    ([[0, 0, 1j]] * 3, [[0, 1, 2]], "real numbers"),
+])
+def test_bad_meshes(vertices, triangles, word):
+    with pytest.raises(sw.Error, match=word):
+        sw.mesh(vertices, triangles)
+
+
+def test_errors_say_where(cube):
+    with pytest.raises(sw.Error) as caught:
+        sw.geometry.mass_properties(cube, -1.0)
+    assert caught.value.where == "mass properties"
+    assert "\n" not in str(caught.value)
+    with pytest.raises(sw.Error):
+        sw.geometry.read_mesh("/nowhere/missing.obj")

@@ -1,0 +1,113 @@
+"""The renderers against closed forms and finite differences."""
+
+import numpy as np
+import pytest
+
+import simwright as sw
+
+
+def look_down(size=64, height=5.0, focal=64.0):
+    pose = np.diag([1.0, -1.0, -1.0, 1.0])
+    pose[2, 3] = height
+    return sw.render.camera(size, size, focal, focal, size / 2, size / 2, pose)
+
+
+def test_depth_of_a_square(cube):
+    image = sw.render.render(cube, look_down())
+    depth, mask = image["depth"], image["mask"]
+    # The top at z = 1 is 4 m away: 1 m covers 16 pixels, from the image's middle to the right and up.
+    assert mask[24, 40] == 1.0 and depth[24, 40] == pytest.approx(4.0, abs=1e-6)
+    assert mask.sum() == pytest.approx(256, abs=1)
+    # Normals are those of the vertices where faces meet at less than 40 degrees.
+    assert image["normal"][24, 40, 2] > 0.9
+    np.testing.assert_allclose(np.linalg.norm(image["normal"][24, 40]), 1.0, atol=1e-6)
+    assert image["color"].shape == (64, 64, 4) and image["color"].dtype == np.uint8
+    assert set(np.unique(image["label"])) == {-1, 0}
+
+
+def test_gradients_match_finite_differences():
+    vertices = np.array([[-1.1, -0.9, 0.0], [1.2, -1.0, 0.1], [0.1, 1.1, -0.1]])
+    mesh = sw.mesh(vertices, [[0, 1, 2]])
+    renderer = sw.render.DifferentiableRenderer(mesh, samples_per_side=8, edge_samples=40000)
+    camera = look_down()
+
+    def area(points):
+        renderer.set_vertices(points)
+        return float(renderer.render(camera)["mask"].sum())
+
+    renderer.set_vertices(vertices)
+    images = renderer.render(camera)
+    gradient = renderer.backward(mask=np.ones_like(images["mask"]))["vertices"]
+    # The covered area in pixels is half the cross product of the projected corners.
+    def exact(points):
+        u = 64.0 * points[:, :2] / (5.0 - points[:, 2:])
+        a, b = u[1] - u[0], u[2] - u[0]
+        return 0.5 * (a[0] * b[1] - a[1] * b[0])
+
+    assert area(vertices) == pytest.approx(exact(vertices), rel=2e-3)
+    step = 1e-6
+    for i in range(3):
+        for k in range(3):
+            shift = np.zeros((3, 3))
+            shift[i, k] = step
+            difference = (exact(vertices + shift) - exact(vertices - shift)) / (2 * step)
+            assert gradient[i, k] == pytest.approx(difference, abs=0.02 * np.abs(gradient).max())
+
+
+def test_a_torch_fit_moves_a_triangle_to_its_target():
+    torch = pytest.importorskip("torch")
+    from simwright import autograd
+
+    target = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]])
+    camera = look_down()
+    renderer = sw.render.DifferentiableRenderer(sw.mesh(target, [[0, 1, 2]]))
+    wanted = autograd.render(renderer, camera, torch.tensor(target))[1].detach()
+    # In the plane alone: a tilt would change the outline only a little.
+    corners = torch.tensor(target[:, :2] + [0.3, -0.2], requires_grad=True)
+    optimizer = torch.optim.Adam([corners], lr=0.02)
+    for step in range(150):
+        optimizer.zero_grad()
+        vertices = torch.cat([corners, torch.zeros(3, 1)], dim=1)
+        loss = ((autograd.render(renderer, camera, vertices, seed=step)[1] - wanted) ** 2).mean()
+        loss.backward()
+        optimizer.step()
+        if step == 100:
+            optimizer.param_groups[0]["lr"] = 0.004
+    assert np.abs(corners.detach().numpy() - target[:, :2]).max() < 0.02
+
+
+def test_two_images_before_their_gradients():
+    torch = pytest.importorskip("torch")
+    from simwright import autograd
+
+    base = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]])
+    renderer = sw.render.DifferentiableRenderer(sw.mesh(base, [[0, 1, 2]]))
+    camera = look_down()
+    gradients = []
+    for together in (False, True):
+        one = torch.tensor(base, requires_grad=True)
+        two = torch.tensor(base * 0.5, requires_grad=True)
+        if together:
+            total = (autograd.render(renderer, camera, one)[1].sum()
+                     + autograd.render(renderer, camera, two)[1].sum())
+            total.backward()
+        else:
+            autograd.render(renderer, camera, one)[1].sum().backward()
+            autograd.render(renderer, camera, two)[1].sum().backward()
+        gradients.append((one.grad.numpy(), two.grad.numpy()))
+    np.testing.assert_array_equal(gradients[0][0], gradients[1][0])
+    np.testing.assert_array_equal(gradients[0][1], gradients[1][1])
+
+
+def test_bad_arguments(cube):
+    with pytest.raises(sw.Error, match="focal"):
+        sw.render.camera(4, 4, 0.0, 1.0, 2, 2, np.eye(4))
+    with pytest.raises(sw.Error, match="finite"):
+        sw.render.orbit_camera((0, 0, np.nan), 4, 0.5, 0, 0.8, 64, 64)
+    renderer = sw.render.DifferentiableRenderer(cube)
+    with pytest.raises(sw.Error):
+        renderer.backward(mask=np.ones((4, 4, 1)))
+    with pytest.raises(sw.Error):
+        renderer.set_vertices(np.zeros((3, 3)))
+    with pytest.raises(sw.Error, match="colors"):
+        sw.render.DifferentiableRenderer(cube, colors=np.zeros((3, 3)))
