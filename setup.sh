@@ -3,9 +3,10 @@
 # missing. --tests adds the dependencies of tests and benchmarks (with python3-torch, against which
 # reward programs are compared), --catalogue the furniture of the catalogue tests (120 MB), --fuzz
 # the compiler of the fuzz targets, the formatter, the linter, and what the fast tests link, --bench
-# the libraries that only benchmarks compare with. --peers instead creates .venv-peers with Drake,
-# MuJoCo, PyBullet and yourdfpy from PyPI (700 MB), in which the tests of label `peers` load
-# Simwright's files.
+# the libraries that only benchmarks compare with. --python instead creates .venv-python with what
+# the Python module is built with and its tests run (PyTorch and Stable-Baselines3 from PyPI, 5 GB),
+# --peers creates .venv-peers with Drake, MuJoCo, PyBullet and yourdfpy from PyPI (700 MB), in which
+# the tests of label `peers` load Simwright's files.
 set -euo pipefail
 
 packages=(
@@ -15,9 +16,10 @@ packages=(
   libcli11-dev libcurl4-openssl-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev
   libconsole-bridge-dev libhdf5-dev libspdlog-dev
   wordnet-base libtorch-dev libopenblas0-pthread
+  python3-dev python3-venv
 )
 test_libraries=(libgtest-dev libsdformat-dev libcpp-httplib-dev)
-peers=
+environment=
 for wanted in "$@"; do
   case $wanted in
     --tests)
@@ -29,26 +31,30 @@ for wanted in "$@"; do
       packages+=("${test_libraries[@]}" clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev)
       ;;
     --bench) packages+=(libqhull-dev libfcl-dev libccd-dev libmeshoptimizer-dev) ;;
-    --peers) peers=yes ;;
-    *) echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz, --bench or --peers)" >&2; exit 2 ;;
+    --peers | --python) environment=${wanted#--} ;;
+    *)
+      echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz, --bench, --python or --peers)" >&2
+      exit 2
+      ;;
   esac
 done
 
 # Versions are pinned to those that the tests were measured with.
-if [ -n "$peers" ]; then
+if [ -n "$environment" ]; then
   cd "$(dirname "$0")"
-  wanted=tests/peers/requirements.txt
-  cmp -s "$wanted" .venv-peers/requirements.txt && exit 0
-  python=${PYTHON:-python3}
+  wanted=tests/$environment/requirements.txt
+  folder=.venv-$environment
+  cmp -s "$wanted" "$folder/requirements.txt" && exit 0
+  python=${PYTHON:-/usr/bin/python3}
   "$python" -c 'import ensurepip' 2>/dev/null || {
     echo "error: $python cannot create virtual environments (apt-get install python3-venv, or PYTHON=...)" >&2
     exit 1
   }
-  echo "Installing $(grep -c == "$wanted") Python packages into .venv-peers"
-  rm -rf .venv-peers
-  "$python" -m venv .venv-peers
-  .venv-peers/bin/pip install --quiet --disable-pip-version-check --only-binary :all: -r "$wanted"
-  cp "$wanted" .venv-peers/requirements.txt  # last: an incomplete environment is rebuilt
+  echo "Installing $(grep -c == "$wanted") Python packages into $folder"
+  rm -rf "$folder"
+  "$python" -m venv "$folder"
+  "$folder/bin/pip" install --quiet --disable-pip-version-check --only-binary :all: -r "$wanted"
+  cp "$wanted" "$folder/requirements.txt"  # last: an incomplete environment is rebuilt
   exit 0
 fi
 

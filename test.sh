@@ -1,10 +1,17 @@
 #!/usr/bin/env bash
 # Installs missing dependencies, builds, and runs all tests. Arguments are passed to ctest:
 #   ./test.sh -L fast
+# The Python package is built and tested too, which needs 5 GB of packages from PyPI once;
+# SIMWRIGHT_PYTHON=OFF leaves it out.
 set -euo pipefail
 cd "$(dirname "$0")"
 ./setup.sh --tests
-cmake --preset release -DSIMWRIGHT_TESTS=ON ${SIMWRIGHT_CMAKE_FLAGS:-} >/dev/null
+python_flags=-DSIMWRIGHT_PYTHON=OFF
+if [ "${SIMWRIGHT_PYTHON:-ON}" != OFF ]; then
+  ./setup.sh --python
+  python_flags="-DSIMWRIGHT_PYTHON=ON -DPython_EXECUTABLE=$PWD/.venv-python/bin/python"
+fi
+cmake --preset release -DSIMWRIGHT_TESTS=ON $python_flags ${SIMWRIGHT_CMAKE_FLAGS:-} >/dev/null
 cmake --build --preset release
 built=$SECONDS
 ctest --test-dir build --no-tests=error --output-on-failure -j "$(nproc)" "$@" | tee build/test.log

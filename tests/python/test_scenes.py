@@ -17,7 +17,7 @@ def test_generated_scenes(dimsum):
     folder, report = dimsum
     scenes = sw.scenes.read(folder)
     assert len(scenes) == 3 == report["scenes"]
-    assert sum(map(len, scenes)) / 3 == pytest.approx(report["mean_objects"], rel=1e-6)
+    assert sum(map(len, scenes)) / 3 == pytest.approx(report["objects_mean"], rel=1e-6)
     assets = sw.scenes.AssetSet.read(str(folder / "assets"))
     for scene in scenes:
         assert all(one.category in assets for one in scene)
