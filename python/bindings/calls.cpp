@@ -1,4 +1,4 @@
-#include "calls.h"
+#include "python/bindings/calls.h"
 
 #include <atomic>
 

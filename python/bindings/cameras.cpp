@@ -12,9 +12,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "bindings.h"
 #include "core/error.h"
-#include "prepared_task.h"
+#include "python/bindings/bindings.h"
+#include "python/bindings/prepared_task.h"
 #include "skills/episode_cameras.h"
 
 namespace simwright::python {

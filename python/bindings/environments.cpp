@@ -9,9 +9,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "bindings.h"
 #include "core/error.h"
-#include "episodes.h"
+#include "python/bindings/bindings.h"
+#include "python/bindings/episodes.h"
 #include "skills/observation.h"
 #include "skills/scripted_expert.h"
 #include "skills/skill_evaluation.h"

@@ -1,4 +1,4 @@
-#include "episode_images.h"
+#include "python/bindings/episode_images.h"
 
 #include <initializer_list>
 #include <utility>

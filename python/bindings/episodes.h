@@ -9,9 +9,9 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
-#include "arrays.h"
-#include "episode_images.h"
-#include "prepared_task.h"
+#include "python/bindings/arrays.h"
+#include "python/bindings/episode_images.h"
+#include "python/bindings/prepared_task.h"
 #include "skills/episode.h"
 #include "skills/episode_cameras.h"
 #include "skills/skill_environment.h"

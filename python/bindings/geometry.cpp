@@ -7,11 +7,11 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "bindings.h"
-#include "calls.h"
 #include "geometry/convex_decomposition.h"
 #include "geometry/mass_properties.h"
 #include "geometry/solid.h"
+#include "python/bindings/bindings.h"
+#include "python/bindings/calls.h"
 
 namespace simwright::python {
 namespace {

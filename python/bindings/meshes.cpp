@@ -7,13 +7,13 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "arrays.h"
 #include "assets/mesh_import.h"
-#include "bindings.h"
-#include "calls.h"
 #include "core/error.h"
 #include "core/finding.h"
 #include "core/mesh.h"
+#include "python/bindings/arrays.h"
+#include "python/bindings/bindings.h"
+#include "python/bindings/calls.h"
 
 namespace simwright::python {
 namespace {

@@ -1,8 +1,8 @@
 #include <nanobind/nanobind.h>
 
-#include "bindings.h"
-#include "calls.h"
 #include "core/parallel.h"
+#include "python/bindings/bindings.h"
+#include "python/bindings/calls.h"
 
 // The compiled half of the package: thin functions on plain values. python/simwright/ gives them
 // their public names.

@@ -4,10 +4,10 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "bindings.h"
 #include "physics_params/category_resolution.h"
 #include "physics_params/knowledge_base.h"
 #include "physics_params/physical_parameters.h"
+#include "python/bindings/bindings.h"
 
 namespace simwright::python {
 namespace {

@@ -1,4 +1,4 @@
-#include "prepared_task.h"
+#include "python/bindings/prepared_task.h"
 
 #include <utility>
 

@@ -10,10 +10,10 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "arrays.h"
-#include "bindings.h"
 #include "core/camera.h"
 #include "core/error.h"
+#include "python/bindings/arrays.h"
+#include "python/bindings/bindings.h"
 #include "render/differentiable.h"
 #include "render/forward.h"
 

@@ -11,10 +11,10 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "arrays.h"
-#include "bindings.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "python/bindings/arrays.h"
+#include "python/bindings/bindings.h"
 #include "reward/reward_program.h"
 #include "tasks/world_state.h"
 #include "workflows/tasks/task_assets.h"

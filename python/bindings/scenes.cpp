@@ -10,10 +10,10 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "bindings.h"
-#include "calls.h"
 #include "core/error.h"
-#include "reports.h"
+#include "python/bindings/bindings.h"
+#include "python/bindings/calls.h"
+#include "python/bindings/reports.h"
 #include "scene/asset_set/asset_set_folder.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"

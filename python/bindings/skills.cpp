@@ -13,11 +13,11 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "arrays.h"
-#include "bindings.h"
-#include "calls.h"
 #include "core/error.h"
-#include "prepared_task.h"
+#include "python/bindings/arrays.h"
+#include "python/bindings/bindings.h"
+#include "python/bindings/calls.h"
+#include "python/bindings/prepared_task.h"
 #include "rl/policy_file.h"
 #include "rl/wilson_interval.h"
 #include "skills/skill_evaluation.h"

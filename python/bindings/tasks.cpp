@@ -9,10 +9,10 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "bindings.h"
-#include "calls.h"
 #include "core/error.h"
-#include "reports.h"
+#include "python/bindings/bindings.h"
+#include "python/bindings/calls.h"
+#include "python/bindings/reports.h"
 #include "workflows/skills/skill_export.h"
 #include "workflows/skills/skill_rollout.h"
 #include "workflows/skills/skill_training.h"
