@@ -80,8 +80,8 @@ std::vector<render::CameraSpec> DefaultCameras(int width, int height) {
   render::CameraSpec front;
   front.name = "front";
   front.mount = "robot";
-  front.mount_from_camera = render::LookAt({-0.05, -0.95, 0.75}, {0.50, 0.0, 0.17});
-  front.vertical_fov = 44.0 * kDegree;
+  front.mount_from_camera = render::LookAt({-0.05, -1.00, 0.80}, {0.44, 0.0, 0.24});
+  front.vertical_fov = 46.0 * kDegree;
   // The hand is along the tool's -z. The camera sits beside it, off the plane of the fingers.
   render::CameraSpec wrist;
   wrist.name = "wrist";
