@@ -138,6 +138,7 @@ class TileRow {
 void RenderRigid(const RigidScene& scene, const core::Camera& camera, const ImageBuffers& buffers,
                  const RigidRenderOptions& options) {
   RequireImage(camera, options);
+  if (buffers.empty()) return;
   thread_local SeenScene memory;  // keeps its memory from image to image
   SeenScene& seen = memory;
   seen.See(scene, camera);
@@ -148,14 +149,16 @@ void RenderRigid(const RigidScene& scene, const core::Camera& camera, const Imag
 
 void RenderRigidBatch(const std::vector<RigidView>& views, const RigidRenderOptions& options) {
   for (const RigidView& view : views) RequireImage(view.camera, options);
-  if (views.size() == 1) {
-    RenderRigid(*views[0].scene, views[0].camera, views[0].buffers, options);
+  const auto render = [&](const RigidView& view) {
+    RenderRigid(*view.scene, view.camera, view.buffers, options);
+  };
+  // Few images are distributed by their rows, many as a whole.
+  if (static_cast<int>(views.size()) < core::ThreadCount()) {
+    for (const RigidView& view : views) render(view);
     return;
   }
-  core::ParallelFor(static_cast<int>(views.size()), [&](int i) {
-    const RigidView& view = views[static_cast<std::size_t>(i)];
-    RenderRigid(*view.scene, view.camera, view.buffers, options);
-  });
+  core::ParallelFor(static_cast<int>(views.size()),
+                    [&](int i) { render(views[static_cast<std::size_t>(i)]); });
 }
 
 }  // namespace simwright::render

@@ -15,6 +15,8 @@ struct ImageBuffers {
   std::int32_t* label = nullptr;  // (height x width), of the part or backdrop; -1: nothing is hit
   // (height x width x 3), unit, world frame, facing the camera; 0: nothing is hit.
   float* normal = nullptr;
+
+  bool empty() const { return !rgb && !depth && !label && !normal; }
 };
 
 struct RigidRenderOptions {
@@ -25,7 +27,8 @@ struct RigidRenderOptions {
 
 // Renders the scene into the buffers. Tiles of 4 x 4 pixels are traced as packets; rows of tiles
 // are distributed over up to core::ThreadCount() threads, and the bytes do not depend on their
-// number. Throws core::Error for a camera without pixels or samples_per_side < 1.
+// number. Does nothing without a buffer. Throws core::Error for a camera without pixels or
+// samples_per_side < 1.
 void RenderRigid(const RigidScene& scene, const core::Camera& camera, const ImageBuffers& buffers,
                  const RigidRenderOptions& options = {});
 

@@ -41,6 +41,7 @@ class Episode {
   // Writes the observation into `row` (Observer).
   void Observe(float* row) const;
 
+  bool begun() const { return world_ != nullptr; }  // the rest needs an episode that has begun
   // Returns the start state of the episode. Its plan is replaced when the episode replans.
   const StartState& start() const { return start_; }
   const tasks::WorldState& state() const { return state_; }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "skills/episode.h"
 #include "skills/skill_environment.h"
 
@@ -57,9 +56,10 @@ std::vector<render::CameraSpec> Checked(std::vector<render::CameraSpec> cameras,
   return cameras;
 }
 
-bool HasBuffer(const render::ImageBuffers& image) {
-  return image.rgb != nullptr || image.depth != nullptr || image.label != nullptr ||
-         image.normal != nullptr;
+render::RigidRenderOptions RenderOptionsOf(const EpisodeCameras& cameras) {
+  render::RigidRenderOptions options;
+  options.samples_per_side = cameras.options().samples_per_side;
+  return options;
 }
 
 }  // namespace
@@ -166,6 +166,9 @@ void EpisodeView::ApplyLook() {
 }
 
 void EpisodeView::Pose(const Episode& episode) {
+  if (!episode.begun()) {
+    throw core::Error("an episode that has not begun cannot be rendered", "", "reset it first");
+  }
   if (episode.start().variant != variant_) Begin(episode.start().variant, seed_);
   Eigen::VectorXd arm;
   episode.world().robot().Positions(&arm);
@@ -203,25 +206,21 @@ void EpisodeView::Render(int camera, const render::ImageBuffers& buffers) const 
     throw core::Error("there is no camera " + std::to_string(camera), "",
                       "there are " + std::to_string(cameras_->size()));
   }
-  render::RigidRenderOptions options;
-  options.samples_per_side = cameras_->options().samples_per_side;
-  render::RenderRigid(scene_, Camera(camera), buffers, options);
+  render::RenderRigid(scene_, Camera(camera), buffers, RenderOptionsOf(*cameras_));
 }
 
 void RenderViews(const std::vector<const EpisodeView*>& views,
                  const std::vector<render::ImageBuffers>& images) {
   const int cameras = CamerasOf(views, images.size());
-  const auto render = [&](int i) {
-    const render::ImageBuffers& image = images[static_cast<std::size_t>(i)];
-    if (!HasBuffer(image)) return;
-    views[static_cast<std::size_t>(i / cameras)]->Render(i % cameras, image);
-  };
-  // A single image is distributed by rows.
-  if (images.size() == 1) {
-    render(0);
-  } else {
-    core::ParallelFor(static_cast<int>(images.size()), render);
+  if (cameras == 0) return;
+  std::vector<render::RigidView> seen;
+  seen.reserve(images.size());
+  for (const EpisodeView* view : views) {
+    for (int c = 0; c < cameras; ++c) {
+      seen.push_back({&view->scene(), view->Camera(c), images[seen.size()]});
+    }
   }
+  render::RenderRigidBatch(seen, RenderOptionsOf(views.front()->cameras()));
 }
 
 void RenderEnvironment(const SkillEnvironment& environment, std::uint64_t seed,
@@ -235,6 +234,9 @@ void RenderEnvironment(const SkillEnvironment& environment, std::uint64_t seed,
   for (std::size_t i = 0; i < views->size(); ++i) {
     EpisodeView& view = (*views)[i];
     const Episode& episode = environment.episode(static_cast<int>(i));
+    if (!episode.begun()) {
+      throw core::Error("environments that were not reset cannot be rendered", "", "reset them");
+    }
     core::Rng rng = core::StreamRng(seed, environment.episode_seed(static_cast<int>(i)));
     const std::uint64_t look = rng();
     if (view.seed() != look || view.variant() != episode.start().variant) {

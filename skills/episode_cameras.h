@@ -61,7 +61,7 @@ class EpisodeCameras {
   SkillVisuals visuals_;
 };
 
-// What the cameras see of one episode: its look, and poses. Mutable, one thread at a time;
+// An episode as the cameras see it: its look, and poses. Mutable, one thread at a time;
 // rendering is const and thread-safe.
 class EpisodeView {
  public:
@@ -73,7 +73,7 @@ class EpisodeView {
   // gripper open. Throws core::Error for a variant that the skill does not have.
   void Begin(int variant, std::uint64_t seed);
   // Moves the robot and the objects to the episode's current state. Begins another variant, with
-  // the current seed, if the episode has another.
+  // the current seed, if the episode has another. Throws core::Error if it has not begun.
   void Pose(const Episode& episode);
   // Moves them to a recorded state: arm (J), rad or m, and position of the gripper's first joint.
   void Pose(const tasks::WorldState& state, const Eigen::Ref<const Eigen::VectorXd>& arm,
@@ -111,7 +111,7 @@ void RenderViews(const std::vector<const EpisodeView*>& views,
 
 // Moves N views to the episodes of N environments and renders them, `images` as in RenderViews. A
 // view begins another episode with the environment's (SkillEnvironment::episode_seed), `seed` mixed
-// in. Throws core::Error for another number of views or images.
+// in. Throws core::Error for another number of views or images, and before the first Reset.
 void RenderEnvironment(const SkillEnvironment& environment, std::uint64_t seed,
                        std::vector<EpisodeView>* views,
                        const std::vector<render::ImageBuffers>& images);

@@ -197,7 +197,7 @@ TEST(EpisodeCameras, AnEpisodeIsSeenWhereItsBodiesAre) {
   const Eigen::Isometry3d tool =
       view.Camera(1).world_from_camera * view.cameras().cameras()[1].mount_from_camera.inverse();
   EXPECT_LT((tool.translation() - episode.state().gripper.translation()).norm(), 1e-4);
-  // An own ray tree with the same parts sees the same.
+  // A recorded state gives the same image as the running episode.
   const EpisodeImage image = Seen(view, 0);
   EpisodeView recorded(view);
   Eigen::VectorXd arm;
@@ -286,6 +286,9 @@ TEST(EpisodeCameras, BadInputIsOneClearLine) {
   EXPECT_THROW(view.Begin(1, 0), core::Error);
   EXPECT_THROW(view.Render(2, {}), core::Error);
   EXPECT_THROW(view.cameras().Find("side"), core::Error);
+  EXPECT_THROW(view.Pose(Episode(*skill)), core::Error);
+  std::vector<EpisodeView> views(1, view);
+  EXPECT_THROW(RenderEnvironment(SkillEnvironment(skill, 1), 0, &views, {{}, {}}), core::Error);
   EXPECT_EQ(view.cameras().Find("wrist"), 1);
 }
 
