@@ -82,12 +82,13 @@ std::vector<render::CameraSpec> DefaultCameras(int width, int height) {
   front.mount = "robot";
   front.mount_from_camera = render::LookAt({-0.05, -1.00, 0.80}, {0.44, 0.0, 0.24});
   front.vertical_fov = 46.0 * kDegree;
-  // The hand is along the tool's -z. The camera sits beside it, off the plane of the fingers.
+  // The hand is along the tool's -z. The camera sits beside it, off the plane of the fingers, on
+  // the side that is above the hand when it approaches horizontally.
   render::CameraSpec wrist;
   wrist.name = "wrist";
   wrist.mount = "wrist";
   wrist.mount_from_camera =
-      render::LookAt({0.10, 0.0, -0.06}, {0.0, 0.0, 0.05}, -Eigen::Vector3d::UnitX());
+      render::LookAt({-0.10, 0.0, -0.06}, {0.0, 0.0, 0.05}, -Eigen::Vector3d::UnitX());
   wrist.vertical_fov = 70.0 * kDegree;
   for (render::CameraSpec* camera : {&front, &wrist}) {
     camera->width = width;

@@ -13,6 +13,9 @@ using Piece = SkillVisuals::Piece;
 const Eigen::Vector4f kRobotPaint(0.90f, 0.91f, 0.93f, 1.0f);
 const Eigen::Vector4f kFingerPaint(0.35f, 0.36f, 0.40f, 1.0f);
 const Eigen::Vector4f kObjectPaint(0.75f, 0.72f, 0.66f, 1.0f);
+// Primitives of a link often overlap with sides in one plane, where their colours would flicker:
+// each is smaller than its successor by this length (m).
+constexpr double kInset = 2e-6;
 
 // Appends a mesh without textures to another.
 void AppendPlain(const core::TexturedMesh& addition, core::TexturedMesh* mesh) {
@@ -27,6 +30,16 @@ void AppendPlain(const core::TexturedMesh& addition, core::TexturedMesh* mesh) {
   if (addition.materials.empty()) mesh->materials.push_back({"plain", kObjectPaint, -1});
 }
 
+// Moves the sides of a shape inwards by `distance` (m) along each axis, about its middle.
+void Inset(double distance, core::TriangleMesh* mesh) {
+  const Eigen::AlignedBox3d box = core::Bounds(*mesh);
+  const Eigen::Vector3d half = (0.5 * box.sizes()).cwiseMax(10.0 * distance);
+  const Eigen::Vector3d factors = Eigen::Vector3d::Ones() - distance * half.cwiseInverse();
+  for (Eigen::Vector3d& vertex : mesh->vertices) {
+    vertex = box.center() + factors.cwiseProduct(vertex - box.center());
+  }
+}
+
 // Reads visuals and prepares meshes; equal files at equal places share one.
 class VisualReader {
  public:
@@ -37,13 +50,17 @@ class VisualReader {
     for (std::size_t i = 0; i < visuals.size();) {
       const int link = visuals[i].link;
       core::TexturedMesh plain;
-      for (; i < visuals.size() && visuals[i].link == link; ++i) {
+      std::size_t end = i;
+      while (end < visuals.size() && visuals[end].link == link) ++end;
+      for (; i < end; ++i) {
         if (!visuals[i].file.empty()) {
           pieces->push_back({OfFile(visuals[i], paint(link)), object, link, label(link)});
           continue;
         }
-        const core::TexturedMesh mesh = assets::ReadVisual(visuals[i], paint(link));
-        if (!mesh.mesh.empty()) AppendPlain(mesh, &plain);
+        core::TexturedMesh mesh = assets::ReadVisual(visuals[i], paint(link));
+        if (mesh.mesh.empty()) continue;
+        Inset(kInset * static_cast<double>(end - 1 - i), &mesh.mesh);
+        AppendPlain(mesh, &plain);
       }
       if (plain.mesh.empty()) continue;
       pieces->push_back({std::make_shared<render::RigidMesh>(plain), object, link, label(link)});
