@@ -76,21 +76,12 @@ class RowRenderer {
     at_zero_ = turn * Eigen::Vector3d(-camera.cx / camera.fx, -camera.cy / camera.fy, 1.0);
   }
 
-  // With one ray per pixel, depth, normal, mask and labels need neither sums nor colours.
   void Draw(int y) const {
-    if (options_.samples_per_side == 1 && !options_.shaded) {
-      const Eigen::Vector3f start = RowStart(y + 0.5);
-      for (int x = 0; x < buffers_.width; ++x) {
-        const Eigen::Vector3f ray = start + (static_cast<float>(x) + 0.5f) * per_x_;
-        const Hit hit = scene_.Intersect(origin_, ray);
-        if (hit.instance < 0) continue;
-        const size_t at = buffers_.Index(x, y);
-        Keep(hit, FacingNormal(hit, ray), at);
-        buffers_.mask[at] = 1.0f;
-      }
-      return;
+    if (options_.samples_per_side == 1) {
+      DrawSingleRays(y);
+    } else {
+      for (int x = 0; x < buffers_.width; ++x) DrawPixel(x, y);
     }
-    for (int x = 0; x < buffers_.width; ++x) DrawPixel(x, y);
   }
 
  private:
@@ -122,31 +113,69 @@ class RowRenderer {
     buffers_.triangle[at] = hit.triangle;
   }
 
+  // With one ray per pixel, neighbouring pixels are traced in bundles.
+  void DrawSingleRays(int y) const {
+    const Eigen::Vector3f start = RowStart(y + 0.5);
+    Eigen::Vector3f rays[kRayBundle];
+    Hit hits[kRayBundle];
+    for (int first = 0; first < buffers_.width; first += kRayBundle) {
+      const int count = std::min(kRayBundle, buffers_.width - first);
+      for (int k = 0; k < count; ++k) {
+        rays[k] = start + (static_cast<float>(first + k) + 0.5f) * per_x_;
+      }
+      scene_.IntersectBundle(origin_, rays, count, hits);
+      for (int k = 0; k < count; ++k) {
+        if (hits[k].instance < 0) continue;
+        const size_t at = buffers_.Index(first + k, y);
+        const Eigen::Vector3f normal = FacingNormal(hits[k], rays[k]);
+        Keep(hits[k], normal, at);
+        buffers_.mask[at] = 1.0f;
+        if (!options_.shaded) continue;
+        const Eigen::Vector3f point = origin_ + hits[k].depth * rays[k];
+        const auto seed = static_cast<std::uint32_t>(at * 64);
+        Store(shader_.Color(hits[k], point, normal, seed), at, first + k, y);
+      }
+    }
+  }
+
+  // The samples of a pixel, in rows, are traced in bundles.
   void DrawPixel(int x, int y) const {
     const int n = options_.samples_per_side;
     const size_t at = buffers_.Index(x, y);
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     int covered = 0;
-    for (int j = 0; j < n; ++j) {
-      const Eigen::Vector3f start = RowStart(y + (j + 0.5) / n);
-      for (int i = 0; i < n; ++i) {
-        const Eigen::Vector3f ray =
-            start + (static_cast<float>(x) + (static_cast<float>(i) + 0.5f) / n) * per_x_;
-        const Hit hit = scene_.Intersect(origin_, ray);
+    Eigen::Vector3f rays[kRayBundle];
+    Hit hits[kRayBundle];
+    for (int first = 0; first < n * n; first += kRayBundle) {
+      const int count = std::min(kRayBundle, n * n - first);
+      for (int k = 0; k < count; ++k) rays[k] = SampleRay(x, y, first + k);
+      if (count > 1) {
+        scene_.IntersectBundle(origin_, rays, count, hits);
+      } else {
+        hits[0] = scene_.Intersect(origin_, rays[0]);
+      }
+      for (int k = 0; k < count; ++k) {
+        const Hit& hit = hits[k];
         if (hit.instance < 0) continue;
         ++covered;
-        const bool representative = i == n / 2 && j == n / 2;
+        const bool representative = first + k == (n / 2) * n + n / 2;
         if (!representative && !options_.shaded) continue;
-        const Eigen::Vector3f normal = FacingNormal(hit, ray);
+        const Eigen::Vector3f normal = FacingNormal(hit, rays[k]);
         if (representative) Keep(hit, normal, at);
-        if (options_.shaded) {
-          const auto seed = static_cast<std::uint32_t>(at * 64 + static_cast<size_t>(j * n + i));
-          sum += shader_.Color(hit, origin_ + hit.depth * ray, normal, seed);
-        }
+        if (!options_.shaded) continue;
+        const auto seed = static_cast<std::uint32_t>(at * 64 + static_cast<size_t>(first + k));
+        sum += shader_.Color(hit, origin_ + hit.depth * rays[k], normal, seed);
       }
     }
     buffers_.mask[at] = static_cast<float>(covered) / static_cast<float>(n * n);
     if (options_.shaded && covered > 0) Store(sum / static_cast<float>(covered), at, x, y);
+  }
+
+  // Returns the ray of a pixel's sample, which are counted in rows.
+  Eigen::Vector3f SampleRay(int x, int y, int sample) const {
+    const int n = options_.samples_per_side, i = sample % n, j = sample / n;
+    return RowStart(y + (j + 0.5) / n) +
+           (static_cast<float>(x) + (static_cast<float>(i) + 0.5f) / n) * per_x_;
   }
 
   void Store(const Eigen::Vector3f& linear, size_t at, int x, int y) const {

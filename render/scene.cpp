@@ -71,6 +71,12 @@ Hit Scene::Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& direc
   return content_->tree.Intersect(origin, direction, near, far);
 }
 
+void Scene::IntersectBundle(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions,
+                            int count, Hit* hits) const {
+  static_assert(kRayBundle == RayTree::kBundle);
+  content_->tree.IntersectBundle(origin, directions, count, 0.0f, 1e30f, hits);
+}
+
 bool Scene::Occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near,
                      float far) const {
   return content_->tree.Occluded(origin, direction, near, far);

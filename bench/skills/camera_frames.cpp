@@ -107,10 +107,10 @@ double FramesPerSecond(std::vector<skills::EpisodeView>* views, const std::vecto
     buffers.push_back(image);
   }
   double best = 0.0;
-  for (int repetition = 0; repetition < 8; ++repetition) {
+  for (int repetition = 0; repetition < 24; ++repetition) {
     const auto start = Clock::now();
     std::size_t frames = 0, moment = 0;
-    for (; frames < 192; frames += buffers.size()) {
+    for (; frames < 64; frames += buffers.size()) {
       for (skills::EpisodeView& view : *views) {
         const Moment& now = moments[moment++ % moments.size()];
         view.Pose(now.state, now.arm, now.leader);

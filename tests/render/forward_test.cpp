@@ -67,6 +67,29 @@ TEST(Forward, CoverageIsTheAreaToAFractionOfAPixel) {
   EXPECT_NEAR(area, 25.15 * 25.15, 0.02 * 25.15 * 25.15);
 }
 
+TEST(Forward, BundledRaysHitWhatSingleRaysHit) {
+  const core::TexturedMesh far = ForwardSquare(3.0, 0.0), near = ForwardSquare(1.0, 0.5);
+  Scene scene;
+  scene.Add(&far);
+  Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
+  turned.rotate(Eigen::AngleAxisd(0.6, Eigen::Vector3d(0.3, 0.5, 0.8).normalized()));
+  scene.Add(&near, turned);
+  scene.Commit();
+  core::Camera camera = ForwardFromAbove(2.5, 101, 60.0);
+  camera.world_from_camera.translation().head<2>() << 0.0137, 0.0073;  // off the diagonals
+  const ForwardBuffers buffers = RenderForward(scene, camera);
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      const Eigen::Vector3f ray = camera.Ray({x + 0.5, y + 0.5}).cast<float>();
+      const Hit hit = scene.Intersect(camera.position().cast<float>(), ray);
+      const size_t at = buffers.Index(x, y);
+      EXPECT_EQ(buffers.label[at], hit.instance);
+      EXPECT_EQ(buffers.triangle[at], hit.triangle);
+      EXPECT_NEAR(buffers.depth[at], hit.depth, 1e-6f);
+    }
+  }
+}
+
 TEST(Forward, MovedVerticesAreRefitted) {
   core::TexturedMesh square = ForwardSquare(1.0, 0.0);
   Scene scene;
