@@ -8,6 +8,7 @@ wrong raises ``simwright.Error``, a sentence with what, where and what to do.
 
 import os as _os
 import sys as _sys
+from importlib.machinery import EXTENSION_SUFFIXES as _SUFFIXES
 from pathlib import Path as _Path
 
 _FOLDER = _Path(__file__).absolute().parent
@@ -23,8 +24,7 @@ except ImportError as error:
         raise ImportError(
             f"simwright: the compiled module is missing in {_FOLDER} (install the package: pip install .)"
         ) from error
-    if not any(name.endswith(_suffix) for name in _built_for
-               for _suffix in __import__("importlib.machinery").machinery.EXTENSION_SUFFIXES):
+    if not any(name == "_core" + suffix for name in _built_for for suffix in _SUFFIXES):
         _version = ".".join(map(str, _sys.version_info[:2]))
         raise ImportError(
             f"simwright: {_built_for[0]} is for another Python than this one, {_version} "

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import simwright as sw
+from conftest import SOURCE
 
 sb3 = pytest.importorskip("stable_baselines3")
 from stable_baselines3.common.callbacks import BaseCallback  # noqa: E402
@@ -55,3 +56,16 @@ def test_terminal_observations():
     np.testing.assert_array_equal(first, env.reset())
     with pytest.raises(sw.Error):
         env.set_attr("task", None)
+
+
+def test_ppo_in_one_file_learns():
+    import sys
+
+    sys.path.insert(0, str(SOURCE / "examples" / "python"))
+    import ppo
+
+    flags = ppo.arguments().parse_args(["--instances", "4", "--steps", "120000"])
+    agent, rates = ppo.train(flags, report=lambda line: None)
+    early, late = np.mean(rates[2:8]), np.mean(rates[-4:])
+    assert late > early + 0.1, (early, late, rates)
+    assert all(bool(parameter.isfinite().all()) for parameter in agent.parameters())
