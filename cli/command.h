@@ -48,6 +48,7 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run);
 void AddTasks(CLI::App* app, CommonOptions* common, Run* run);
 void AddReward(CLI::App* app, CommonOptions* common, Run* run);
 void AddTrain(CLI::App* app, CommonOptions* common, Run* run);
+void AddSkills(CLI::App* app, CommonOptions* common, Run* run);
 void AddRollout(CLI::App* app, CommonOptions* common, Run* run);
 void AddExport(CLI::App* app, CommonOptions* common, Run* run);
 void AddReplay(CLI::App* app, CommonOptions* common, Run* run);

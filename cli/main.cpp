@@ -49,6 +49,7 @@ int Main(int argc, char** argv) {
   cli::AddTasks(&app, &common, &run);
   cli::AddReward(&app, &common, &run);
   cli::AddTrain(&app, &common, &run);
+  cli::AddSkills(&app, &common, &run);
   cli::AddRollout(&app, &common, &run);
   cli::AddExport(&app, &common, &run);
   cli::AddReplay(&app, &common, &run);

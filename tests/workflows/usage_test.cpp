@@ -35,6 +35,8 @@ TEST(Usage, TheNearestIsNamed) {
   ExpectUsage("import a.obj -o b --heigth 1", "did you mean --height?");
   ExpectUsage("zorbelflux", "unknown subcommand zorbelflux");
   ExpectUsage("export run --format rso2 -o x", "ros2");
+  ExpectUsage("skils", "did you mean skills?");
+  ExpectUsage("rollout --skil open_drawer", "did you mean --skill?");
   ExpectUsage("run a.jpg --category mug --lift slow", "fast");
 }
 
@@ -48,6 +50,7 @@ const char* const kCommands[] = {"lift",
                                  "reward",
                                  "train",
                                  "rollout",
+                                 "skills",
                                  "export",
                                  "replay",
                                  "run",
@@ -86,8 +89,9 @@ TEST(Usage, HelpGivesEveryDefaultAndNamesOfChoices) {
 }
 
 TEST(Usage, JsonIsJson) {
-  for (const char* command : {"version", "doctor", "scene generate --list", "library --list",
-                              "physics --category mug", "import none -o x", "check none"}) {
+  for (const char* command :
+       {"version", "doctor", "scene generate --list", "library --list", "skills",
+        "physics --category mug", "import none -o x", "check none"}) {
     const Outcome outcome = RunProgram(std::string(command) + " --json", "/dev/null");
     ASSERT_TRUE(nlohmann::json::accept(outcome.text)) << command << ": " << outcome.text;
     EXPECT_TRUE(nlohmann::json::parse(outcome.text)["findings"].is_array()) << command;

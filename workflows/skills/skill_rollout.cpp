@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
+#include <utility>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -11,10 +13,15 @@
 #include "rl/training.h"
 #include "skills/skill_evaluation.h"
 #include "tasks/task_file.h"
+#include "workflows/priors/models_folder.h"
 #include "workflows/skills/rollout_pictures.h"
+#include "workflows/skills/shipped_skills.h"
 #include "workflows/skills/skill_recording.h"
+#include "workflows/skills/skill_suite.h"
+#include "workflows/skills/skill_training.h"
 
 namespace simwright::workflows {
+namespace fs = std::filesystem;
 namespace {
 
 void Show(const TrainedTask& task, const RolloutRequest& request,
@@ -39,6 +46,86 @@ SkillRun ReadWithFriction(const std::filesystem::path& folder, std::optional<dou
   return run;
 }
 
+RolloutReport RollOut(const TrainedTask& task, const RolloutRequest& request,
+                      core::Progress* progress) {
+  RolloutReport report;
+  for (const RunSkill& skill : task.skills()) report.subtasks.push_back(skill.name);
+  progress->Stage("roll out");
+  report.chain = skills::EvaluateChain(task.links(), request.episodes, request.seed);
+  for (const skills::ChainOutcome& outcome : report.chain.outcomes) {
+    if (!outcome.success) continue;
+    for (const skills::EvaluatedEpisode& link : outcome.links) report.seconds += link.seconds;
+  }
+  if (report.chain.successes > 0) report.seconds /= report.chain.successes;
+  if (!request.pictures.empty() || !request.poses.empty()) {
+    progress->Stage("draw");
+    Show(task, request, report.chain);
+  }
+  return report;
+}
+
+// Returns the cell's evaluation tasks, made below `folder`. The kind "photo" has one instance.
+tasks::TaskSet EvaluationTasks(const SuiteCell& cell, const fs::path& models,
+                               const fs::path& folder, core::Progress* progress) {
+  const fs::path photo = models.parent_path() / "examples" / "coffee.png";
+  if (cell.kind == "photo" && !fs::exists(photo)) {
+    throw core::Error("the photo of the skill '" + cell.name + "' is missing", photo.string(),
+                      "give tasks of your own with --on");
+  }
+  return tasks::ReadTaskFile(
+      MakeCellTasks(cell, kUnseenSeed, kUnseenInstances, photo, folder, progress));
+}
+
+RolloutReport RollOutShippedSkill(const RolloutRequest& request, core::Progress* progress) {
+  const fs::path models = ModelsFolder();
+  const ShippedSkill shipped = ReadShippedSkill(models, request.skill);
+  rl::Policy policy = rl::ReadPolicy(shipped.file);
+  const core::TemporaryFolder folder;
+  const bool own = request.on.empty();
+  progress->Stage("choose the tasks");
+  SkillMatch match =
+      own ? MatchSkill(shipped.cell, policy,
+                       EvaluationTasks(shipped.cell, models, folder.path(), progress), {"*"},
+                       "the evaluation instances")
+          : MatchSkill(shipped.cell, policy, tasks::ReadTaskFile(request.on), request.tasks,
+                       request.on.string());
+  SkillRun run;
+  run.folder = folder.path();
+  run.robot = shipped.cell.robot;
+  run.options.action = shipped.action;
+  run.options.finger_friction = TrainRequest().finger_friction;
+  if (request.finger_friction) {
+    run.options.finger_friction =
+        skills::FactorRange{*request.finger_friction, *request.finger_friction};
+  }
+  run.set = std::move(match.set);
+  RolloutReport report = RollOut(TrainedTask(std::move(run), std::move(policy)), request, progress);
+  report.skill = request.skill;
+  report.subtasks = {request.skill};
+  report.taken = std::move(match.taken);
+  report.skipped = std::move(match.skipped);
+  return report;
+}
+
+// Returns the lines that say where a shipped policy acted, with tasks of one reason together.
+std::string MatchTable(const RolloutReport& report) {
+  std::string table = "skill " + report.skill + " in " + std::to_string(report.taken.size()) +
+                      (report.taken.size() == 1 ? " step:\n" : " steps:\n");
+  for (const TakenSubtask& taken : report.taken) {
+    table += "  " + taken.subtask;
+    table += taken.task == taken.subtask ? "\n" : " of " + taken.task + "\n";
+  }
+  std::map<std::string, std::vector<std::string>> reasons;
+  for (const SkippedTask& skipped : report.skipped) reasons[skipped.reason].push_back(skipped.task);
+  for (const auto& [reason, names] : reasons) {
+    table += names.size() == 1
+                 ? "skipped " + names.front()
+                 : "skipped " + std::to_string(names.size()) + " tasks (" + names.front() + " ...)";
+    table += ": " + reason + "\n";
+  }
+  return table;
+}
+
 }  // namespace
 
 TrainedTask::TrainedTask(const std::filesystem::path& folder,
@@ -60,30 +147,25 @@ TrainedTask::TrainedTask(const std::filesystem::path& folder,
   }
 }
 
+TrainedTask::TrainedTask(SkillRun run, rl::Policy policy)
+    : run_(std::move(run)), skills_(PrepareSkills(run_)) {
+  policies_.push_back(std::move(policy));
+  const skills::Skill& skill = *skills_.front().evaluated;
+  skills::RequireFits(policies_.front(), skill);
+  links_.push_back({&skill, &policies_.front()});
+}
+
 RolloutReport Rollout(const RolloutRequest& request, core::Progress* progress) {
+  if (!request.skill.empty()) return RollOutShippedSkill(request, progress);
   std::optional<tasks::TaskSet> on;
   if (!request.on.empty()) {
     on = ChooseTasks(tasks::ReadTaskFile(request.on), request.tasks, request.on.string());
   }
-  const TrainedTask task(request.run, on, request.finger_friction);
-  RolloutReport report;
-  for (const RunSkill& skill : task.skills()) report.subtasks.push_back(skill.name);
-  progress->Stage("roll out");
-  report.chain = skills::EvaluateChain(task.links(), request.episodes, request.seed);
-  for (const skills::ChainOutcome& outcome : report.chain.outcomes) {
-    if (!outcome.success) continue;
-    for (const skills::EvaluatedEpisode& link : outcome.links) report.seconds += link.seconds;
-  }
-  if (report.chain.successes > 0) report.seconds /= report.chain.successes;
-  if (!request.pictures.empty() || !request.poses.empty()) {
-    progress->Stage("draw");
-    Show(task, request, report.chain);
-  }
-  return report;
+  return RollOut(TrainedTask(request.run, on, request.finger_friction), request, progress);
 }
 
 std::string RolloutTable(const RolloutReport& report) {
-  std::string table;
+  std::string table = report.skill.empty() ? "" : MatchTable(report);
   char line[192];
   if (report.subtasks.size() > 1) {
     for (size_t k = 0; k < report.subtasks.size(); ++k) {
@@ -111,6 +193,16 @@ std::string RolloutJson(const RolloutReport& report) {
     text["subtasks"].push_back({{"name", report.subtasks[k]},
                                 {"tried", report.chain.tried[k]},
                                 {"succeeded", report.chain.succeeded[k]}});
+  }
+  if (!report.skill.empty()) {
+    text["skill"] = report.skill;
+    text["taken"] = text["skipped"] = core::Json::array();
+    for (const TakenSubtask& taken : report.taken) {
+      text["taken"].push_back({{"task", taken.task}, {"subtask", taken.subtask}});
+    }
+    for (const SkippedTask& skipped : report.skipped) {
+      text["skipped"].push_back({{"task", skipped.task}, {"reason", skipped.reason}});
+    }
   }
   return core::JsonText(text);
 }

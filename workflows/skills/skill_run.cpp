@@ -69,21 +69,35 @@ std::vector<std::string> HashesOf(const tasks::TaskSet& set) {
 
 }  // namespace
 
-tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::string>& patterns,
-                           const std::string& file) {
-  tasks::TaskSet chosen;
-  std::set<std::string> names, used;
+std::set<std::string> MatchingTaskNames(const tasks::TaskSet& set,
+                                        const std::vector<std::string>& patterns,
+                                        const std::string& file) {
+  std::set<std::string> names;
   for (const std::string& pattern : patterns) {
     bool any = false;
     for (const tasks::Task& task : set.tasks) {
       if (fnmatch(pattern.c_str(), task.name.c_str(), 0) != 0) continue;
       any = true;
-      if (!names.insert(task.name).second) continue;
-      chosen.tasks.push_back(task);
-      used.insert(task.assets.begin(), task.assets.end());
+      names.insert(task.name);
     }
     if (!any) {
       throw core::Error("there is no task '" + pattern + "'", file, "it has " + SomeNames(set));
+    }
+  }
+  return names;
+}
+
+tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::string>& patterns,
+                           const std::string& file) {
+  MatchingTaskNames(set, patterns, file);  // refuses a pattern without a task
+  tasks::TaskSet chosen;
+  std::set<std::string> names, used;
+  for (const std::string& pattern : patterns) {
+    for (const tasks::Task& task : set.tasks) {
+      if (fnmatch(pattern.c_str(), task.name.c_str(), 0) != 0) continue;
+      if (!names.insert(task.name).second) continue;
+      chosen.tasks.push_back(task);
+      used.insert(task.assets.begin(), task.assets.end());
     }
   }
   for (const tasks::TaskAsset& asset : set.assets) {
@@ -156,6 +170,10 @@ const robot::RobotModel& RobotOf(const std::string& name) {
   return *model;
 }
 
+fs::path SkillFolder(const SkillRun& run, int number, const std::string& subtask) {
+  return run.folder / (std::to_string(number) + "_" + subtask);
+}
+
 std::vector<RunSkill> PrepareSkills(const SkillRun& run) {
   return PrepareSkillsOn(run.set, run);
 }
@@ -185,7 +203,7 @@ std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun&
     }
     RunSkill& skill = skills[k];
     skill.name = named[k].name;
-    skill.folder = run.folder / (std::to_string(k + 1) + "_" + skill.name);
+    skill.folder = SkillFolder(run, static_cast<int>(k) + 1, skill.name);
     const auto followers = k == 0 ? later : std::vector<std::shared_ptr<const skills::Skill>>();
     skill.skill = skills::MakeSkill(robot, subtasks, run.options, followers);
     skill.evaluated = skills::MakeSkill(robot, subtasks, run.options.ForEvaluation(), followers);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,13 @@ struct RunSkill {
   std::shared_ptr<const skills::Skill> evaluated;  // for evaluation, without easier starts
 };
 
+// Returns the names of the tasks of `set`, read from `file`, that match one of `patterns` ('*'
+// matches any characters, as in a shell). Throws core::Error, listing the known names, if a pattern
+// matches none.
+std::set<std::string> MatchingTaskNames(const tasks::TaskSet& set,
+                                        const std::vector<std::string>& patterns,
+                                        const std::string& file);
+
 // Returns the tasks of `set`, read from `file`, whose names match one of `patterns` ('*' matches
 // any characters, as in a shell), without duplicates. Throws core::Error, listing the known names,
 // if a pattern matches none, or if the tasks have different numbers of subtasks.
@@ -45,6 +53,9 @@ void WriteRun(const SkillRun& run);
 // Reads a run. Throws core::Error if the folder has no run, or if an asset is missing or has
 // changed since, naming it.
 SkillRun ReadRun(const std::filesystem::path& folder);
+
+// Returns the folder of the run's subtask of this number (from 1) and name.
+std::filesystem::path SkillFolder(const SkillRun& run, int number, const std::string& subtask);
 
 // Returns the robot of this name; it lives as long as the program.
 const robot::RobotModel& RobotOf(const std::string& name);

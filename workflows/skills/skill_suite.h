@@ -17,8 +17,13 @@ struct SuiteCell {
   std::string name;     // open_microwave_door
   std::string kind;     // a library kind; "photo": the cup reconstructed from the example photo
   std::string pattern;  // selects the tasks that contain the subtask (ChooseTasks)
-  int subtask = 0;      // the subtask's index in those tasks
-  double minutes = 10;  // the maximum training time on two cores
+  // The name of the subtask is the verb, the asset's name and the part, joined by '_':
+  // "open_microwave_1_door". The part is empty if the whole object is moved.
+  std::string verb, part;
+  std::string category;     // the category of the kind's assets in tasks.json
+  std::string description;  // what the skill does: "open a microwave's door"
+  int subtask = 0;          // the subtask's index in those tasks
+  double minutes = 10;      // the maximum training time on two cores
   // Cabinets are as high as the robot and their open doors stand beside it, which requires a base.
   std::string robot = "panda";
   int instances = 32;  // training instances of the kind; 8 do not generalise as well
