@@ -63,34 +63,6 @@ void MjcfSize(tinyxml2::XMLPrinter* printer, const std::vector<WorldObject>& obj
       .Set("nstack", std::to_string(working));
 }
 
-// Writes the ground as a box, because Drake's contact of meshes with a plane's half space failed in
-// scenes. The box is rigid, because the objects on it are compliant, and two rigid bodies have no
-// hydroelastic contact.
-void SdfGround(tinyxml2::XMLPrinter* printer) {
-  Element model(printer, "model");
-  model.Set("name", kGround);
-  Leaf(printer, "static", "true");
-  Element link(printer, "link");
-  link.Set("name", kGround);
-  for (const char* const role : {"collision", "visual"}) {
-    Element owner(printer, role);
-    owner.Set("name", role);
-    Leaf(printer, "pose", "0 0 -0.5 0 0 0");
-    {
-      Element geometry(printer, "geometry");
-      Element box(printer, "box");
-      Leaf(printer, "size", "20 20 1");
-    }
-    if (role != std::string("collision")) continue;
-    {
-      Element properties(printer, "drake:proximity_properties");
-      Element(printer, "drake:rigid_hydroelastic");
-      Leaf(printer, "drake:mesh_resolution_hint", "1");
-    }
-    SdfSurface(printer, kGroundFriction);
-  }
-}
-
 void SdfModel(tinyxml2::XMLPrinter* printer, const WorldObject& object) {
   const Asset& asset = object.asset->asset;
   Element model(printer, "model");
@@ -133,6 +105,34 @@ void SdfSun(tinyxml2::XMLPrinter* printer) {
 }
 
 }  // namespace
+
+// Writes the ground as a box, because Drake's contact of meshes with a plane's half space failed in
+// scenes. The box is rigid, because the objects on it are compliant, and two rigid bodies have no
+// hydroelastic contact.
+void SdfGround(tinyxml2::XMLPrinter* printer) {
+  Element model(printer, "model");
+  model.Set("name", kGround);
+  Leaf(printer, "static", "true");
+  Element link(printer, "link");
+  link.Set("name", kGround);
+  for (const char* const role : {"collision", "visual"}) {
+    Element owner(printer, role);
+    owner.Set("name", role);
+    Leaf(printer, "pose", "0 0 -0.5 0 0 0");
+    {
+      Element geometry(printer, "geometry");
+      Element box(printer, "box");
+      Leaf(printer, "size", "20 20 1");
+    }
+    if (role != std::string("collision")) continue;
+    {
+      Element properties(printer, "drake:proximity_properties");
+      Element(printer, "drake:rigid_hydroelastic");
+      Leaf(printer, "drake:mesh_resolution_hint", "1");
+    }
+    SdfSurface(printer, kGroundFriction);
+  }
+}
 
 std::string WorldMjcf(const std::string& name, const std::vector<WorldObject>& objects) {
   const std::map<std::string, const WorldAsset*> assets = AssetsOf(objects);

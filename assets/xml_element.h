@@ -58,6 +58,9 @@ void SdfCollision(tinyxml2::XMLPrinter* printer, const std::string& name, const 
 // Writes <surface> with the friction that all readers of SDF support.
 void SdfSurface(tinyxml2::XMLPrinter* printer, double friction);
 
+// Writes the ground of a world, a static model whose top is z = 0 (world_writer.cpp).
+void SdfGround(tinyxml2::XMLPrinter* printer);
+
 // Writes <option>: the solver's settings, `multiccd` on. `time_step` in s.
 void MjcfOption(tinyxml2::XMLPrinter* printer, double time_step = 0.002);
 // Writes <inertial> on principal axes.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -5,13 +6,37 @@
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/usage.h"
+#include "workflows/skills/policy_export.h"
 #include "workflows/skills/skill_export.h"
+#include "workflows/skills/task_world_export.h"
 
 namespace simwright::cli {
 namespace {
 
-int ExportSkillOrAsset(const workflows::ExportRequest& given, const CommonOptions& common) {
-  workflows::ExportRequest request = given;
+using workflows::ExportFormat;
+using workflows::PolicyFormat;
+
+const std::map<std::string, ExportFormat> kMotionFormats = {
+    {"ros2", ExportFormat::kRos2},
+    {"csv", ExportFormat::kCsv},
+    {"robomimic", ExportFormat::kRobomimic}};
+const std::map<std::string, PolicyFormat> kPolicyFormats = {
+    {"onnx", PolicyFormat::kOnnx}, {"torchscript", PolicyFormat::kTorchScript}};
+
+const std::vector<std::string> kWorldFormats = {"mjcf", "sdf", "drake"};
+
+struct ExportFlags {
+  std::filesystem::path run, output;
+  std::string skill, subtask, format, task, robot = "panda";
+  bool world = false, sampled = false;
+  workflows::ExportRequest motions;
+};
+
+int ExportMotions(const ExportFlags& flags, const CommonOptions& common) {
+  workflows::ExportRequest request = flags.motions;
+  request.run = flags.run;
+  request.output = flags.output;
+  request.format = kMotionFormats.at(flags.format);
   request.seed = common.seed;
   request.force = common.force;
   core::Progress progress(common.ProgressStyle());
@@ -27,48 +52,140 @@ int ExportSkillOrAsset(const workflows::ExportRequest& given, const CommonOption
   return 0;
 }
 
-}  // namespace
+int ExportModels(const ExportFlags& flags, const CommonOptions& common) {
+  workflows::PolicyExportRequest request;
+  request.run = flags.run;
+  request.skill = flags.skill;
+  request.subtask = flags.subtask;
+  request.format = kPolicyFormats.at(flags.format);
+  request.output = flags.output;
+  request.force = common.force;
+  const workflows::PolicyExportReport report = workflows::ExportPolicies(request);
+  if (common.json) {
+    PrintJson(workflows::PolicyExportJson(report), {});
+    return 0;
+  }
+  if (!common.quiet) std::fputs(workflows::PolicyExportTable(report).c_str(), stdout);
+  std::printf("%s\n", report.output.c_str());
+  return 0;
+}
 
-void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
-  using workflows::ExportFormat;
-  static const std::map<std::string, ExportFormat> formats = {
-      {"ros2", ExportFormat::kRos2},
-      {"csv", ExportFormat::kCsv},
-      {"robomimic", ExportFormat::kRobomimic}};
-  auto request = std::make_shared<workflows::ExportRequest>();
-  CLI::App* command = app->add_subcommand(
-      "export", "Export trained skills as robot trajectories or demonstrations");
-  command->footer(
-      "Examples:\n  simwright export open --format ros2 --joint-names fr3 -o open.yaml\n"
-      "  simwright export open --format robomimic --episodes 50 -o open.hdf5\n"
-      "Trajectories respect the robot's limits, at 1 kHz from rest to rest. `simwright replay`\n"
-      "verifies them. See docs/export.md.");
-  command->add_option("run", request->run, "A folder written by `simwright train`")->required();
-  AddChoice(command, "--format", {"ros2", "csv", "robomimic"}, "",
-            "ros2 (YAML, or JSON by the extension), csv, robomimic",
-            [request](const std::string& name) { request->format = formats.at(name); })
-      ->required();
-  command
-      ->add_option("-o,--output", request->output,
-                   "The output file, or a folder for several trajectories")
-      ->required();
-  command->add_option("--joint-names", request->joint_names,
+int ExportWorld(const ExportFlags& flags, const CommonOptions& common) {
+  workflows::TaskWorldExportRequest request;
+  request.source = flags.run;
+  request.task = flags.task;
+  request.subtask = flags.subtask;
+  request.robot = flags.robot;
+  request.format = flags.format;
+  if (flags.sampled) request.start_seed = common.seed;
+  request.output = flags.output;
+  request.force = common.force;
+  const workflows::TaskWorldExportReport report = workflows::ExportTaskWorld(request);
+  if (common.json) {
+    PrintJson(workflows::TaskWorldJson(report), report.findings);
+    return 0;
+  }
+  if (!common.quiet) std::fputs(workflows::TaskWorldTable(report).c_str(), stdout);
+  PrintFindings(report.findings, common);
+  std::printf("%s\n", (report.output / report.file).c_str());
+  return 0;
+}
+
+int ExportAs(const ExportFlags& flags, const CommonOptions& common) {
+  if (flags.world) return ExportWorld(flags, common);
+  return kPolicyFormats.contains(flags.format) ? ExportModels(flags, common)
+                                               : ExportMotions(flags, common);
+}
+
+// Throws CLI::ParseError for flags that do not belong together.
+void RequireExportSource(const ExportFlags& flags) {
+  const bool policy = kPolicyFormats.contains(flags.format);
+  const bool world =
+      std::find(kWorldFormats.begin(), kWorldFormats.end(), flags.format) != kWorldFormats.end();
+  const auto need = [](bool ok, const char* option, const char* what) {
+    if (!ok) throw CLI::ValidationError(option, std::string("needs ") + what);
+  };
+  need(world || !flags.world, "--world", "--format mjcf, sdf or drake");
+  need(flags.world || !world, "--format", "--world for mjcf, sdf and drake");
+  need(world || flags.task.empty(), "--task", "--world");
+  need(world || flags.robot == "panda", "--robot", "--world");
+  need(policy || flags.skill.empty(), "--skill", "--format onnx or torchscript");
+  need(policy || world || flags.subtask.empty(), "--subtask", "a policy or --world");
+  if (flags.run.empty() && flags.skill.empty()) {
+    throw CLI::RequiredError(
+        policy  ? "a folder written by `simwright train`, or --skill NAME,"
+        : world ? "a folder written by `simwright train`, or a tasks.json with --task NAME,"
+                : "a folder written by `simwright train`");
+  }
+}
+
+void AddMotionOptions(CLI::App* command, workflows::ExportRequest* motions) {
+  command->add_option("--joint-names", motions->joint_names,
                       "The controller's joint names: panda, fr3 (also applies that robot's "
                       "limits), or a JSON file; default: the robot's own names");
   command
       ->add_option(
-          "--pace", request->at_recorded_speed,
+          "--pace", motions->at_recorded_speed,
           "limits: as fast as the limits and the task allow; recorded: at most as recorded")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, bool>{{"limits", false}, {"recorded", true}}))
       ->default_str("limits");
-  command->add_option("--episodes", request->episodes, "Number of successful episodes")
+  command->add_option("--episodes", motions->episodes, "Number of successful episodes")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
+}
+
+}  // namespace
+
+void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
+  auto flags = std::make_shared<ExportFlags>();
+  CLI::App* command = app->add_subcommand(
+      "export", "Export skills as trajectories, demonstrations or networks, and tasks as worlds");
+  command->footer(
+      "Examples:\n  simwright export open --format ros2 --joint-names fr3 -o open.yaml\n"
+      "  simwright export open --format robomimic --episodes 50 -o open.hdf5\n"
+      "  simwright export --skill open_drawer --format onnx -o open_drawer.onnx\n"
+      "  simwright export tasks.json --task open_drawer_unit_1_drawer_1 --world --format mjcf -o "
+      "w\n"
+      "Trajectories respect the robot's limits, at 1 kHz from rest to rest. `simwright replay`\n"
+      "verifies them. Networks map an observation to an action (docs/export.md).");
+  CLI::Option* folder =
+      command
+          ->add_option("run", flags->run,
+                       "A folder written by `simwright train`; with --world also a tasks.json")
+          ->default_str("none");
+  command
+      ->add_option("--skill", flags->skill,
+                   "A shipped policy instead of a folder (onnx, torchscript)")
+      ->excludes(folder);
+  command->add_option("--subtask", flags->subtask, "Only the policy or world of this subtask");
+  command->add_flag("--world", flags->world,
+                    "Export the robot, furniture and objects of a task as one world (mjcf, sdf, "
+                    "drake)");
+  command->add_option("--task", flags->task, "With --world: the task")
+      ->default_str("the folder's first");
+  command->add_option("--robot", flags->robot,
+                      "With --world and a tasks.json: panda, panda_on_base, or a URDF");
+  command->add_flag("--sampled-start", flags->sampled,
+                    "With --world: a start sampled with --seed as in an evaluation, not the start "
+                    "that the task describes");
+  AddChoice(command, "--format",
+            {"ros2", "csv", "robomimic", "onnx", "torchscript", "mjcf", "sdf", "drake"}, "",
+            "ros2 (YAML, or JSON by the extension), csv, robomimic, onnx, torchscript; with "
+            "--world mjcf, sdf, drake",
+            [flags](const std::string& name) { flags->format = name; })
+      ->required();
+  command
+      ->add_option("-o,--output", flags->output,
+                   "The output file, or a folder for a world or several files")
+      ->required();
+  AddMotionOptions(command, &flags->motions);
   AddCommon(command, common);
   AddForce(command, common);
-  command->callback(
-      [request, common, run] { *run = [=] { return ExportSkillOrAsset(*request, *common); }; });
+  command->callback([flags, common, run] {
+    RequireExportSource(*flags);
+    *run = [=] { return ExportAs(*flags, *common); };
+  });
 }
 
 }  // namespace simwright::cli

@@ -11,8 +11,8 @@ namespace {
 constexpr double kInFloor = 1e-3;     // m
 constexpr double kFingerLead = 0.01;  // m
 
-// Returns the links that are in the floor in any configuration: published collision shapes are
-// generous, and the floor would brake the first joint.
+}  // namespace
+
 std::vector<int> LinksInFloor(const ArticulatedBody& body, const robot::RobotModel& model,
                               const Eigen::Isometry3d& world_from_robot) {
   std::vector<int> links;
@@ -25,8 +25,6 @@ std::vector<int> LinksInFloor(const ArticulatedBody& body, const robot::RobotMod
   }
   return links;
 }
-
-}  // namespace
 
 std::shared_ptr<const PreparedBody> RobotBody(const robot::RobotModel& model) {
   return std::make_shared<PreparedBody>(ArticulatedBodyFrom(model.urdf, model.kinematics));

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -62,6 +63,11 @@ class DrivenRobot {
   Eigen::VectorXd arm_command_;
   double leader_command_ = 0.0, finger_set_point_ = 0.0;
 };
+
+// Returns the links that DrivenRobot does not let touch the floor: those that are in it at zero.
+// Published collision shapes are generous, and the floor would brake the first joint.
+std::vector<int> LinksInFloor(const ArticulatedBody& body, const robot::RobotModel& model,
+                              const Eigen::Isometry3d& world_from_robot);
 
 // Returns the body of DrivenRobot. Throws core::Error if the URDF cannot be simulated.
 std::shared_ptr<const PreparedBody> RobotBody(const robot::RobotModel& model);

@@ -27,6 +27,10 @@ class Observer {
   Observer(const Skill& skill, const SkillVariant& variant);
 
   int size() const;
+  // Return the joints (object and joint) and the other free objects that the observation contains,
+  // in order.
+  const std::vector<std::pair<int, int>>& joints() const { return joints_; }
+  const std::vector<int>& objects() const { return objects_; }
   // Writes size() numbers of about unit size into `row`: joint positions and velocities of the arm,
   // the gripper in the target frame, that frame in the robot's base, the joints and objects that
   // the program reads, the target's size and motion (TargetGeometry), the displacement to the
