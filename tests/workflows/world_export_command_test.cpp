@@ -12,6 +12,7 @@
 #include "core/files.h"
 #include "sim/articulated_world.h"
 #include "sim/mujoco_scene.h"
+#include "skills/observation.h"
 #include "tests/workflows/program.h"
 #include "tests/workflows/scripted_run.h"
 #include "workflows/skills/skill_suite.h"
@@ -128,6 +129,42 @@ TEST_F(WorldExportCommand, MujocoFindsTheSameWorldAndItRests) {
             << mj_id2name(model, mjOBJ_BODY, b);
       }
     }
+  }
+}
+
+// task.json names bodies and joints of the world, and its layout fills the observation. A sampled
+// start differs from the described one, and only by its seed.
+TEST_F(WorldExportCommand, TaskFileDescribesTheObservation) {
+  for (const WorldSource& source : Sources()) {
+    Export(source, "mjcf");
+    const json task = json::parse(core::ReadFile(Path("mjcf") + "/task.json", 1 << 24));
+    const skills::Skill& skill = *source.skill->evaluated;
+    const int size = skills::Observer(skill, skill.variants.front()).size();
+    EXPECT_EQ(task.at("observation_size"), size);
+    int next = 0;
+    for (const json& entry : task.at("observation")) {
+      EXPECT_EQ(entry.at("start"), next);
+      next += entry.at("size").get<int>();
+    }
+    EXPECT_EQ(next, size);
+    const sim::MujocoScene scene(Path("mjcf") + "/world.xml", {}, sim::MujocoScene::Ground::kOwn);
+    const auto body = [&](const json& name) {
+      return mj_name2id(scene.model(), mjOBJ_BODY, name.get<std::string>().c_str());
+    };
+    EXPECT_GT(body(task.at("robot").at("tool_body")), 0);
+    EXPECT_GT(body(task.at("target").at("body")), 0);
+    EXPECT_GT(body(task.at("target").at("link")), 0);
+    for (const json& joint : task.at("program_joints")) {
+      const std::string name = joint.at("joint");
+      EXPECT_GE(mj_name2id(scene.model(), mjOBJ_JOINT, name.c_str()), 0) << name;
+    }
+    const std::string described = core::ReadFile(Path("mjcf") + "/world.xml", 1 << 26);
+    WorldSource sampled = {source.arguments + " --sampled-start --seed 3", nullptr};
+    Export(sampled, "mjcf");
+    const std::string first = core::ReadFile(Path("mjcf") + "/world.xml", 1 << 26);
+    EXPECT_NE(first, described);
+    Export(sampled, "mjcf");
+    EXPECT_EQ(core::ReadFile(Path("mjcf") + "/world.xml", 1 << 26), first);
   }
 }
 
