@@ -10,10 +10,10 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "scene/export/scene_files.h"
+#include "skills/task_interface.h"
+#include "skills/task_world.h"
 #include "tasks/task_file.h"
 #include "workflows/skills/skill_run.h"
-#include "workflows/skills/task_interface.h"
-#include "workflows/skills/task_world.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
@@ -64,7 +64,7 @@ std::string YamlPose(const Eigen::Isometry3d& pose, const std::string& indent) {
 }
 
 // Returns the world as Drake's model directives; `package` is the name of the output folder.
-std::string TaskDirectives(const TaskWorld& world, const std::string& package) {
+std::string TaskDirectives(const skills::TaskWorld& world, const std::string& package) {
   std::ostringstream text;
   text.precision(17);
   text << "# " << world.task << ": model directives of Drake\ndirectives:\n"
@@ -98,10 +98,10 @@ std::string TaskPackage(const fs::path& output) {
 }
 
 // Writes the world into `folder`; returns the name of its file.
-std::string WriteTaskWorld(const TaskWorld& world, const std::string& format,
+std::string WriteTaskWorld(const skills::TaskWorld& world, const std::string& format,
                            const std::string& package, const fs::path& folder) {
   fs::create_directories(folder / "meshes");
-  for (const WorldMesh& mesh : world.meshes) {
+  for (const skills::WorldMesh& mesh : world.meshes) {
     core::WriteFile(folder / mesh.file, assets::ObjText(mesh.mesh, true));
   }
   if (format == "mjcf") {
@@ -128,13 +128,15 @@ TaskWorldExportReport ExportTaskWorld(const TaskWorldExportRequest& request) {
     throw core::Error("there is no such world format", request.format, "mjcf, sdf, drake");
   }
   const SkillRun run = SourceOf(request);
-  const std::vector<RunSkill> skills = PrepareSkills(run);
-  const skills::StartState start = TaskStart(*skills.front().evaluated, request.start_seed);
-  const TaskWorld world = MakeTaskWorld(skills.front(), run.set.assets, start);
+  const std::vector<RunSkill> prepared = PrepareSkills(run);
+  const RunSkill& subtask = prepared.front();
+  const skills::Skill& skill = *subtask.evaluated;
+  const skills::StartState start = skills::TaskStart(skill, request.start_seed);
+  const skills::TaskWorld world = MakeTaskWorld(subtask.name, skill, run.set.assets, start);
   TaskWorldExportReport report;
   report.output = request.output;
   report.task = run.set.tasks.front().name;
-  report.subtask = skills.front().name;
+  report.subtask = subtask.name;
   for (const assets::TreeBody& body : world.bodies) {
     report.bodies.push_back(body.name);
     report.joints += static_cast<int>(body.kinematics->moving_joints().size());
@@ -142,7 +144,7 @@ TaskWorldExportReport ExportTaskWorld(const TaskWorldExportRequest& request) {
       report.mass += link.inertial.mass;
     }
   }
-  if (skills.front().evaluated->variants.front().starts_held) {
+  if (skill.variants.front().starts_held) {
     report.findings.push_back({"world-not-held", core::Severity::kWarning, report.subtask,
                                "the task starts with an object in the gripper, but in the exported "
                                "world the object is where the task describes it and the gripper is "
@@ -152,7 +154,8 @@ TaskWorldExportReport ExportTaskWorld(const TaskWorldExportRequest& request) {
   core::StagedFolder staged(request.output, request.force);
   report.file =
       WriteTaskWorld(world, request.format, TaskPackage(request.output), staged.staging());
-  core::WriteFile(staged.staging() / "task.json", TaskInterfaceJson(skills.front(), world, start));
+  core::WriteFile(staged.staging() / "task.json",
+                  TaskInterfaceJson(subtask.name, skill, world, start));
   staged.Commit();
   return report;
 }

@@ -1,4 +1,4 @@
-#include "workflows/skills/task_world.h"
+#include "skills/task_world.h"
 
 #include <cstdio>
 
@@ -9,7 +9,7 @@
 #include "sim/articulated_world.h"
 #include "sim/driven_robot.h"
 
-namespace simwright::workflows {
+namespace simwright::skills {
 namespace {
 
 const Eigen::Vector4f kWorldRobotColor(0.90f, 0.91f, 0.93f, 1.0f);
@@ -103,14 +103,14 @@ void AddMotor(int joint, double force, double target, assets::TreeBody* body) {
   motor.target = target;
   motor.stiffness = force / kErrorAtFullEffort;
   // DrivenRobot's motors correct this share of an error per step of the physics.
-  const skills::SkillOptions options;
+  const SkillOptions options;
   const double rate = sim::MotorOptions().stiffness * options.control_rate * options.substeps;
   motor.damping = motor.stiffness / rate;
   body->motors.push_back(motor);
 }
 
-void AddRobot(const skills::Skill& skill, const skills::SkillVariant& variant,
-              const skills::StartState& start, TaskWorldBuilder* builder) {
+void AddRobot(const Skill& skill, const SkillVariant& variant, const StartState& start,
+              TaskWorldBuilder* builder) {
   const robot::RobotModel& robot = *skill.robot;
   assets::TreeBody& tree =
       builder->AddBody("robot", "", skill.robot_body->body(), robot.urdf, kWorldRobotColor);
@@ -133,7 +133,7 @@ void AddRobot(const skills::Skill& skill, const skills::SkillVariant& variant,
   }
 }
 
-void AddObject(const skills::SkillVariant& variant, int object, const tasks::TaskAsset& asset,
+void AddObject(const SkillVariant& variant, int object, const tasks::TaskAsset& asset,
                const tasks::WorldState& state, TaskWorldBuilder* builder) {
   const auto t = static_cast<size_t>(object);
   const assets::UrdfModel model = assets::ReadSemanticModel(asset.path).model;
@@ -167,23 +167,22 @@ void SetFingerFriction(std::vector<assets::TreeBody>* bodies) {
 
 }  // namespace
 
-TaskWorld MakeTaskWorld(const RunSkill& run_skill, const std::vector<tasks::TaskAsset>& assets,
-                        const skills::StartState& start) {
-  const skills::Skill& skill = *run_skill.evaluated;
-  const skills::SkillVariant& variant = skill.variants.front();
+TaskWorld MakeTaskWorld(const std::string& name, const Skill& skill,
+                        const std::vector<tasks::TaskAsset>& assets, const StartState& start) {
+  const SkillVariant& variant = skill.variants.front();
   TaskWorld world;
-  world.task = run_skill.name;
+  world.task = name;
   world.bodies.reserve(variant.placed.size() + 1);
   TaskWorldBuilder builder(&world);
   AddRobot(skill, variant, start, &builder);
   for (const int object : variant.placed) {
-    const std::string& name = variant.model.objects[static_cast<size_t>(object)].name;
+    const std::string& placed = variant.model.objects[static_cast<size_t>(object)].name;
     for (const tasks::TaskAsset& asset : assets) {
-      if (asset.name == name) AddObject(variant, object, asset, start.state, &builder);
+      if (asset.name == placed) AddObject(variant, object, asset, start.state, &builder);
     }
   }
   SetFingerFriction(&world.bodies);
   return world;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::skills

@@ -1,4 +1,4 @@
-#include "workflows/skills/task_interface.h"
+#include "skills/task_interface.h"
 
 #include <algorithm>
 
@@ -6,8 +6,9 @@
 #include "core/random.h"
 #include "manipulation/reach_plan.h"
 #include "manipulation/target_frame.h"
+#include "skills/observation.h"
 
-namespace simwright::workflows {
+namespace simwright::skills {
 namespace {
 
 using core::OrderedJson;
@@ -59,8 +60,7 @@ OrderedJson RobotJson(const robot::RobotModel& robot, const TaskWorld& world) {
           {"finger_acceleration", finger.acceleration}};
 }
 
-OrderedJson JointJson(const skills::SkillVariant& variant, const TaskWorld& world, int object,
-                      int joint) {
+OrderedJson JointJson(const SkillVariant& variant, const TaskWorld& world, int object, int joint) {
   const auto t = static_cast<size_t>(object), j = static_cast<size_t>(joint);
   const tasks::ArticulatedObject& known = variant.model.objects[t];
   const tasks::ObjectJoint& read = known.joints[j];
@@ -76,15 +76,15 @@ OrderedJson JointJson(const skills::SkillVariant& variant, const TaskWorld& worl
           {"target", read.joint_target()}};
 }
 
-OrderedJson ObjectJson(const skills::SkillVariant& variant, const TaskWorld& world, int object) {
+OrderedJson ObjectJson(const SkillVariant& variant, const TaskWorld& world, int object) {
   const tasks::ArticulatedObject& known = variant.model.objects[static_cast<size_t>(object)];
   return {{"body", assets::TreeLinkName(BodyNamed(world, known.name), 0)},
           {"center", JsonOf(known.links.front().middle)},
           {"size", JsonOf(Eigen::Vector3d(known.box.sizes()))}};
 }
 
-OrderedJson TargetJson(const skills::Skill& skill, const skills::SkillVariant& variant,
-                       const TaskWorld& world, const skills::StartState& start) {
+OrderedJson TargetJson(const Skill& skill, const SkillVariant& variant, const TaskWorld& world,
+                       const StartState& start) {
   const manipulation::InteractionTarget& target = *variant.target;
   const auto t = static_cast<size_t>(target.object);
   const tasks::ArticulatedObject& known = variant.model.objects[t];
@@ -130,10 +130,10 @@ OrderedJson TargetJson(const skills::Skill& skill, const skills::SkillVariant& v
   return json;
 }
 
-// Returns the layout of the observation, one entry per group (skills::Observer). A number of the
+// Returns the layout of the observation, one entry per group (Observer). A number of the
 // observation is the quantity divided by `unit`.
-OrderedJson LayoutJson(const skills::Skill& skill, const skills::SkillVariant& variant,
-                       size_t joints, size_t objects) {
+OrderedJson LayoutJson(const Skill& skill, const SkillVariant& variant, size_t joints,
+                       size_t objects) {
   OrderedJson layout = OrderedJson::array();
   int at = 0;
   const auto add = [&](const char* name, int size, const char* quantity, double unit) {
@@ -178,12 +178,12 @@ OrderedJson LayoutJson(const skills::Skill& skill, const skills::SkillVariant& v
   if (variant.destination) {
     add("to_destination", 3, "m, from the object's centre to its destination, target axes", 0.1);
   }
-  add("last_action", skills::ActionSize(skill), "the last action", 1.0);
+  add("last_action", ActionSize(skill), "the last action", 1.0);
   return layout;
 }
 
-OrderedJson OptionsJson(const skills::SkillOptions& options) {
-  return {{"action_space", skills::NameOf(options.action)},
+OrderedJson OptionsJson(const SkillOptions& options) {
+  return {{"action_space", NameOf(options.action)},
           {"control_rate_hz", options.control_rate},
           {"control_steps", options.control_steps},
           {"reach", options.reach},
@@ -198,10 +198,10 @@ OrderedJson OptionsJson(const skills::SkillOptions& options) {
 
 }  // namespace
 
-skills::StartState TaskStart(const skills::Skill& skill, std::optional<std::uint64_t> seed) {
+StartState TaskStart(const Skill& skill, std::optional<std::uint64_t> seed) {
   core::Rng rng(seed.value_or(1));
-  if (seed) return skills::SampleStart(skill, rng);
-  skills::StartState start;
+  if (seed) return SampleStart(skill, rng);
+  StartState start;
   start.state = skill.variants.front().start;
   start.arm = skill.robot->home();
   start.leader = skill.robot->gripper.open;
@@ -209,19 +209,18 @@ skills::StartState TaskStart(const skills::Skill& skill, std::optional<std::uint
   start.mass.assign(objects, 1.0);
   start.friction.assign(objects, 1.0);
   start.joint.assign(objects, 1.0);
-  return skills::PlannedFrom(skill, start, rng, skills::Resampling::kNothing);
+  return PlannedFrom(skill, start, rng, Resampling::kNothing);
 }
 
-std::string TaskInterfaceJson(const RunSkill& run_skill, const TaskWorld& world,
-                              const skills::StartState& start) {
-  const skills::Skill& skill = *run_skill.evaluated;
-  const skills::SkillVariant& variant = skill.variants.front();
+std::string TaskInterfaceJson(const std::string& subtask, const Skill& skill,
+                              const TaskWorld& world, const StartState& start) {
+  const SkillVariant& variant = skill.variants.front();
   OrderedJson json = {{"format", 1},
-                      {"subtask", run_skill.name},
+                      {"subtask", subtask},
                       {"success", variant.subtask.success},
                       {"options", OptionsJson(skill.options)},
                       {"robot", RobotJson(*skill.robot, world)}};
-  const skills::Observer observer(skill, variant);
+  const Observer observer(skill, variant);
   json["program_joints"] = json["other_objects"] = OrderedJson::array();
   for (const auto& [object, joint] : observer.joints()) {
     json["program_joints"].push_back(JointJson(variant, world, object, joint));
@@ -238,4 +237,4 @@ std::string TaskInterfaceJson(const RunSkill& run_skill, const TaskWorld& world,
   return core::JsonText(json);
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::skills
