@@ -113,8 +113,8 @@ void RequireExportSource(const ExportFlags& flags) {
   need(policy || world || flags.subtask.empty(), "--subtask", "a policy or --world");
   if (flags.run.empty() && flags.skill.empty()) {
     throw CLI::RequiredError(
-        policy  ? "a folder written by `simwright train`, or --skill NAME,"
-        : world ? "a folder written by `simwright train`, or a tasks.json with --task NAME,"
+        policy  ? "a folder written by `simwright train`, or --skill NAME"
+        : world ? "a folder written by `simwright train`, or a tasks.json with --task NAME"
                 : "a folder written by `simwright train`");
   }
 }
