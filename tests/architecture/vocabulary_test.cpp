@@ -13,12 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> kModules = {
-    "core",        "geometry",   "nn",          "render",
-    "llm",         "reward",     "texture",     "physics_params",
-    "rl",          "asset_lift", "assets",      "library",
-    "robot",       "sim",        "asset_build", "tasks",
-    "scene",       "validation", "importers",   "manipulation",
-    "skills",      "workflows",  "cli",         "capture",
+    "core",        "geometry",    "nn",          "render",
+    "llm",         "reward",      "texture",     "physics_params",
+    "rl",          "asset_lift",  "assets",      "library",
+    "robot",       "sim",         "asset_build", "tasks",
+    "scene",       "validation",  "importers",   "manipulation",
+    "skills",      "workflows",   "cli",         "capture",
     "library_fit", "certificate", "python"};
 
 struct Line {
