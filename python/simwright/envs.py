@@ -158,9 +158,11 @@ class SkillEnv(_Worlds, gymnasium.Env):
 
     Args:
         cell (str): a cell of the skill suite, such as "open_drawer".
-        tasks, task: instead of a cell, a tasks.json and a name or patterns in it.
+        tasks (path): instead of a cell, a tasks.json.
+        task (str or list of str): a name, or patterns, in it.
         subtask (int): index of the subtask in these tasks.
-        split (str), instances (int): of a cell, "train" or "unseen" objects, and how many.
+        split (str): of a cell, "train" or "unseen" objects.
+        instances (int): of a cell, how many objects; None: those of the shipped policy's split.
         action_space (str): see the module.
         robot (str): panda, panda_on_base, or a URDF with its side file; None: the cell's.
         easy_starts (bool): a share of episodes starts at the target, or with its joint partly open.
