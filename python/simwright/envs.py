@@ -44,18 +44,15 @@ def _settings(action_space, robot, episode_seconds):
     return settings
 
 
-def _prepare(cell, tasks, task, robot, action_space, split, instances, episode_seconds, progress):
-    """Returns the prepared task of a cell, or of a task file."""
+def _task_file(cell, tasks, robot, split, instances, progress):
+    """Returns the task file and the robot of a cell, or of a task file."""
     if (cell is None) == (tasks is None):
         raise _core.Error("environment: needs a cell, or a tasks.json (give one of cell=, tasks=)")
-    if cell is not None:
-        known = next((entry for entry in _core.cells() if entry["name"] == cell), None)
-        file = cell_tasks(cell, split, instances, reporter(progress))
-        return _core.PreparedTask(str(file), ["*"],
-                                  _settings(action_space, robot or known["robot"], episode_seconds))
-    patterns = [task] if isinstance(task, str) else list(task)
-    return _core.PreparedTask(str(tasks), patterns,
-                              _settings(action_space, robot or "panda", episode_seconds))
+    if tasks is not None:
+        return str(tasks), robot or "panda"
+    known = next((entry for entry in _core.cells() if entry["name"] == cell), None)
+    file = cell_tasks(cell, split, instances, reporter(progress))
+    return str(file), robot or known["robot"]
 
 
 def _numbers(actions, shape):
@@ -86,6 +83,15 @@ class _Worlds:
 
     _open = True
     _eyes = None  # EpisodeCameras
+
+    def _prepare(self, file, robot, patterns, action_space, subtask, episode_seconds):
+        """Reads the tasks of a file; `subtask` is None where all are executed."""
+        patterns = [patterns] if isinstance(patterns, str) else list(patterns)
+        settings = _settings(action_space, robot, episode_seconds)
+        self.task = _core.PreparedTask(file, patterns, settings)
+        self.tasks_file, self.robot, self.action_space_name = file, robot, action_space
+        self.subtask_index = subtask
+        self._flip_gripper = action_space == "osc_delta"
 
     def _require_open(self):
         if not self._open:
@@ -188,10 +194,10 @@ class SkillEnv(_Worlds, gymnasium.Env):
                  action_space="focus", robot=None, easy_starts=False, episode_seconds=None,
                  cameras=(), image_size=128, images=("rgb",), look=None, render_mode=None,
                  render_size=(480, 360), progress=None):
-        self.task = _prepare(cell, tasks, task, robot, action_space, split, instances,
-                             episode_seconds, progress)
+        file, robot = _task_file(cell, tasks, robot, split, instances, progress)
+        self._prepare(file, robot, "*" if tasks is None else task, action_space, int(subtask),
+                      episode_seconds)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
-        self._flip_gripper = action_space == "osc_delta"
         self._episode = _core.SingleEpisode(self.task, int(subtask), not easy_starts)
         self._eyes = self._make_cameras(int(subtask), not easy_starts)
         if self._eyes is not None:
@@ -278,9 +284,9 @@ class SkillVectorEnv(_Worlds, gymnasium.vector.VectorEnv):
                  episode_seconds=None, cameras=(), image_size=128, images=("rgb",), look=None,
                  render_mode=None, render_size=(480, 360), progress=None):
         self.num_envs = int(num_envs)
-        self.task = _prepare(cell, tasks, task, robot, action_space, split, instances,
-                             episode_seconds, progress)
-        self._flip_gripper = action_space == "osc_delta"
+        file, robot = _task_file(cell, tasks, robot, split, instances, progress)
+        self._prepare(file, robot, "*" if tasks is None else task, action_space, int(subtask),
+                      episode_seconds)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
         self._episodes = _core.VectorEpisodes(self.task, int(subtask), self.num_envs, not easy_starts)
         self._eyes = self._make_cameras(int(subtask), not easy_starts)
@@ -382,10 +388,8 @@ class LongTaskEnv(_Worlds, gymnasium.Env):
             known = next((entry for entry in _core.long_tasks() if entry["name"] == name), None)
             tasks = long_task(name, reporter(progress))
             robot = robot or known["robot"]
-        self.task = _prepare(None, tasks, task, robot, action_space, "train", None, episode_seconds,
-                             progress)
+        self._prepare(str(tasks), robot or "panda", task, action_space, None, episode_seconds)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
-        self._flip_gripper = action_space == "osc_delta"
         count = len(self.task.subtasks)
         self._episodes = [_core.SingleEpisode(self.task, index, True) for index in range(count)]
         for index, episode in enumerate(self._episodes):
@@ -464,6 +468,11 @@ class LongTaskEnv(_Worlds, gymnasium.Env):
         """Returns the scripted expert's action (A), or None where there is none."""
         self._require_open()
         return self._episodes[self._subtask].expert_action()
+
+    def camera(self, name):
+        """Returns a camera as it is now, as ``SkillEnv.camera``."""
+        self._require_open()
+        return self._episodes[self._subtask].camera(name)
 
     def state(self):
         """Returns the state in SI units, as ``SkillEnv.state``."""

@@ -1,0 +1,411 @@
+"""Demonstrations of skills with camera images, in the formats that people train on.
+
+    from simwright import demonstrations
+    episodes = demonstrations.record("open_drawer", 50, cameras=["front", "wrist"])
+    demonstrations.write_lerobot("drawers", episodes)
+
+    python -m simwright.demonstrations --skill open_drawer --episodes 50 --format lerobot -o drawers
+
+``record`` yields one episode after the other; the writers take any iterable of episodes and hold one
+in memory. docs/demonstrations.md lists the keys of each format.
+"""
+
+import argparse
+import dataclasses
+import json
+import re
+import sys
+import time
+
+import numpy as np
+
+from . import _core, skills
+from ._lerobot import write_lerobot
+from ._mcap import write_mcap
+from ._output import need
+from ._progress import reporter
+from ._robomimic import write_robomimic
+
+__all__ = ["Episode", "record", "write_lerobot", "write_mcap", "write_robomimic"]
+
+STEP_SECONDS = 0.05
+# Fewer successes than this share of the attempts end a recording.
+_LEAST_SUCCESS = 0.05
+_LEAST_ATTEMPTS = 20
+_PANDA = tuple(f"panda_joint{number}" for number in range(1, 8))
+# Franka Robotics' ranges of the Panda's joints, rad.
+_PANDA_LOWER = np.array([-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973])
+_PANDA_UPPER = np.array([2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973])
+# By format: the module that it needs, its extra, its writer.
+FORMATS = {"lerobot": ("lerobot.datasets.lerobot_dataset", "lerobot", write_lerobot),
+           "mcap": ("mcap_ros2.writer", "mcap", write_mcap),
+           "robomimic": ("h5py", "robomimic", write_robomimic)}
+
+
+@dataclasses.dataclass
+class Episode:
+    """One episode of T steps, 0.05 s each, in SI units.
+
+    Arrays of states have T + 1 rows: row t is before action t, the last one is after all actions.
+
+    Attributes:
+        skill (str): the skill or long task.
+        task (str): the task's name, with its objects.
+        robot (str): as of the environment.
+        seed, index (int): the episode is number ``index`` of the seed.
+        success (bool): the goal was held for half a second.
+        instructions (list of str): a sentence for each subtask.
+        subtasks (T + 1) int: index of the current subtask.
+        states (T + 1, O) float32: the policies' observation, which knows the objects (docs/skills.md).
+        joints (T + 1, J): the arm's joints, rad or m; ``joint_names`` (J).
+        openings (T + 1): m between the fingertips.
+        tools (T + 1, 4, 4): robot's base from the frame between the fingertips, m.
+        base (4, 4): world from the robot's base, m.
+        objects (dict): by name, ``poses`` (T + 1, 4, 4), world from object, m, ``joints`` (T + 1, K)
+            and ``joint_names`` (K).
+        actions (T, A) float32: of the policy, in [-1, 1], in the space ``action_space``.
+        commands (T, J + 1): the arm's set points at the end of the step, rad or m, and the gripper's
+            command in [-1, 1], which opens it at 1. Unlike actions they do not depend on the object.
+        rewards (T) float32, dones (T) bool: 1 at the end; goals (T) bool: the goal holds.
+        images (dict): by camera, (T + 1, H, W, 3) uint8 RGB; NAME_depth (T + 1, H, W) float32, m, and
+            NAME_segmentation (T + 1, H, W) int32, where they were asked for.
+        camera_poses (dict): by camera, (T + 1, 4, 4), world from camera, +z forward, y down, m.
+        intrinsics (dict): by camera, fx, fy, cx, cy in pixels.
+        legend (dict): names of the labels of segmentations.
+    """
+
+    skill: str
+    task: str
+    robot: str
+    seed: int
+    index: int
+    success: bool
+    instructions: list
+    action_space: str
+    joint_names: tuple
+    subtasks: np.ndarray
+    states: np.ndarray
+    joints: np.ndarray
+    openings: np.ndarray
+    tools: np.ndarray
+    base: np.ndarray
+    objects: dict
+    actions: np.ndarray
+    commands: np.ndarray
+    rewards: np.ndarray
+    dones: np.ndarray
+    goals: np.ndarray
+    images: dict
+    camera_poses: dict
+    intrinsics: dict
+    legend: dict
+
+    def __len__(self):
+        return len(self.actions)
+
+    @property
+    def times(self):
+        """(T + 1) s."""
+        return np.arange(len(self) + 1) * STEP_SECONDS
+
+    @property
+    def instruction(self):
+        """The sentence of a task of one subtask, or those of all subtasks."""
+        return " ".join(self.instructions)
+
+    def chosen_actions(self, which):
+        """Returns an action space and the actions (T, A) float32 in it, in [-1, 1].
+
+        Args:
+            which (str): "policy", the actions in ``action_space``, or "joint_targets", the commands in
+                the environments' action space of this name.
+
+        Raises:
+            Error: for another name, or joint targets of another robot than the Panda.
+        """
+        if which == "policy":
+            return self.action_space, self.actions
+        if which != "joint_targets":
+            raise _core.Error(f"actions: is {which!r} (give 'joint_targets' or 'policy')")
+        if self.joint_names != _PANDA:
+            raise _core.Error(f"actions: the joints' ranges of {self.robot} are not known here (give "
+                              "actions='policy')")
+        targets = self.commands.copy()
+        middle, half = 0.5 * (_PANDA_UPPER + _PANDA_LOWER), 0.5 * (_PANDA_UPPER - _PANDA_LOWER)
+        targets[:, :-1] = np.clip((targets[:, :-1] - middle) / half, -1.0, 1.0)
+        return "joint_targets", targets.astype(np.float32)
+
+
+def record(skill=None, count=50, policy="expert", cameras=("front", "wrist"), image_size=128,
+           images=("rgb",), look=None, seed=1, keep="successes", progress=None, **settings):
+    """Records episodes.
+
+    Args:
+        skill (str): a name of ``simwright.skills.names()``, or a long task such as
+            "apple_into_drawer"; None: ``settings`` have ``tasks``, a tasks.json.
+        count (int): number of episodes to keep.
+        policy: "expert" (the scripted expert), "shipped" (the skill's trained policy), a Policy, or
+            anything with ``act``, observations (1, O) to actions (1, A).
+        cameras, image_size, images, look: see ``simwright.envs.SkillEnv``; no cameras: no images.
+        seed (int): of the episodes and their looks; equal seeds give equal episodes.
+        keep (str): "successes", or "all" to keep failed episodes too, with ``success`` False.
+        progress: see ``simwright``.
+        **settings: of the environment, such as ``split``, ``instances``, ``robot`` and
+            ``episode_seconds``.
+
+    Returns:
+        an iterator of Episode. It holds one episode in memory.
+
+    Raises:
+        Error: for unknown names and settings; while iterating, where fewer than one in twenty
+            episodes succeeds.
+    """
+    if keep not in ("successes", "all"):
+        raise _core.Error(f"keep: is {keep!r} (give 'successes' or 'all')")
+    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
+        raise _core.Error(f"count: is {count!r} (give an int of at least 1)")
+    acting = _policy(skill, policy)
+    env = _environment(skill, acting, settings, cameras=cameras, image_size=image_size,
+                       images=images, look=look, progress=progress)
+    return _record(env, skill, int(count), acting, int(seed), keep, reporter(progress))
+
+
+def _policy(skill, policy):
+    """Returns something with ``act``, or None for the expert."""
+    if not isinstance(policy, str):
+        if not hasattr(policy, "act"):
+            raise _core.Error(f"policy: is {policy!r} (give expert, shipped or a Policy)")
+        return policy
+    if policy not in ("expert", "shipped"):
+        raise _core.Error(f"policy: is '{policy}' (give expert, shipped or a Policy)")
+    if policy == "expert":
+        return None
+    if skill not in skills.names():
+        raise _core.Error(f"policy: no policy is shipped for {skill} (give expert or a Policy)")
+    return skills.load(skill)
+
+
+def _environment(skill, acting, settings, **pictures):
+    """Returns the environment of a skill, a long task or a task file."""
+    try:
+        from . import envs
+    except ImportError:
+        raise _core.Error("demonstrations: need Gymnasium (pip install 'simwright[gym]')") from None
+    action_space = getattr(acting, "metadata", {}).get("action", "focus")
+    settings = {"action_space": action_space, **settings}
+    if acting is None and settings["action_space"] != "focus":
+        raise _core.Error(f"policy: the expert acts in the space 'focus', not in "
+                          f"'{settings['action_space']}' (leave action_space out)")
+    long_tasks = [entry["name"] for entry in _core.long_tasks()]
+    if skill is not None and skill not in skills.names() + long_tasks:
+        raise _core.Error(f"skill: there is no '{skill}' (it is one of "
+                          f"{', '.join(skills.names() + long_tasks)})")
+    # The camera of render() is not rendered: its legend states the target.
+    pictures = dict(pictures, render_mode="rgb_array", render_size=(16, 16))
+    try:
+        if skill in long_tasks:
+            return envs.LongTaskEnv(name=skill, **settings, **pictures)
+        return envs.SkillEnv(cell=skill, **settings, **pictures)
+    except TypeError as error:
+        raise _core.Error(f"settings: are not those of an environment ({error})") from None
+
+
+def _record(env, skill, count, acting, seed, keep, report):
+    """Yields the episodes of ``record``."""
+    describe = _Descriptions(env)
+    began, kept, attempts = time.monotonic(), 0, 0
+    while kept < count:
+        episode = _run(env, skill, acting, seed, attempts, describe)
+        attempts += 1
+        if episode.success or keep == "all":
+            kept += 1
+            if report is not None:
+                report("record", f"{attempts} episodes", kept, count, time.monotonic() - began)
+            yield episode
+        elif attempts >= _LEAST_ATTEMPTS and kept < _LEAST_SUCCESS * attempts:
+            raise _core.Error(f"record: {kept} of {attempts} episodes succeeded (try another policy, "
+                              "or keep='all')")
+    if report is not None:
+        report("", "", 0, 0, 0.0)
+    env.close()
+
+
+class _Frames:
+    """Collects the frames of an episode, in lists by name."""
+
+    def __init__(self, env):
+        self.rows = {}
+        self.objects = {}
+        self.images = {key: [] for key in getattr(env.observation_space, "spaces", {})
+                       if key != "state"}
+        self.poses = {name: [] for name in env._seen}
+        self.intrinsics = {}
+
+    def add(self, **values):
+        for name, value in values.items():
+            self.rows.setdefault(name, []).append(value)
+
+    def look(self, env, observation, subtask, world_from_base):
+        """Adds the state that an observation belongs to."""
+        state = env.state()
+        self.add(states=observation["state"] if env._seen else observation, subtasks=subtask,
+                 joints=state["robot_joints"], openings=state["gripper_opening"],
+                 tools=np.linalg.inv(world_from_base) @ state["gripper_pose"])
+        for name, frames in self.images.items():
+            frames.append(observation[name])
+        for name, poses in self.poses.items():
+            camera = env.camera(name)
+            poses.append(camera["pose"])
+            self.intrinsics[name] = camera["intrinsics"]
+        for name, entry in state["objects"].items():
+            known = self.objects.setdefault(name, {"poses": [], "joints": [],
+                                                   "joint_names": list(entry["joints"])})
+            known["poses"].append(entry["pose"])
+            known["joints"].append(list(entry["joints"].values()))
+
+    def array(self, name, dtype=np.float64):
+        return np.asarray(self.rows[name], dtype=dtype)
+
+
+def _run(env, skill, acting, seed, index, describe):
+    """Runs an episode to its end."""
+    observation, info = env.reset(seed=seed) if index == 0 else env.reset()
+    about = describe.episode(env)
+    base = about["base"]
+    frames = _Frames(env)
+    frames.look(env, observation, info.get("subtask", 0), base)
+    ended = False
+    while not ended:
+        if acting is None:
+            action = env.expert_action()
+            if action is None:
+                raise _core.Error(f"policy: {skill} has no expert (give another policy)")
+        else:
+            action = np.asarray(acting.act(frames.rows["states"][-1][None]))[0]
+        observation, reward, terminated, truncated, info = env.step(action)
+        ended = terminated or truncated
+        # The next subtask of a long task starts with the commands of the one before.
+        frames.add(actions=np.clip(action, -1.0, 1.0), rewards=reward, dones=ended,
+                   goals=info["success"],
+                   commands=np.append(env.state()["robot_command"], np.clip(action[-1], -1.0, 1.0)))
+        frames.look(env, observation, info.get("subtask", 0), base)
+    return Episode(
+        skill=skill or about["task"], task=about["task"], robot=env.robot, seed=seed, index=index,
+        success=bool(info["is_success"]), instructions=about["instructions"],
+        action_space=env.action_space_name, joint_names=_joint_names(env),
+        subtasks=frames.array("subtasks", np.int64), states=frames.array("states", np.float32),
+        joints=frames.array("joints"), openings=frames.array("openings"),
+        tools=frames.array("tools"), base=base,
+        objects={name: {key: value if key == "joint_names" else np.asarray(value, dtype=np.float64)
+                        for key, value in entry.items()} for name, entry in frames.objects.items()},
+        actions=frames.array("actions", np.float32), commands=frames.array("commands"),
+        rewards=frames.array("rewards", np.float32), dones=frames.array("dones", bool),
+        goals=frames.array("goals", bool),
+        images={name: np.stack(images) for name, images in frames.images.items()},
+        camera_poses={name: np.asarray(poses) for name, poses in frames.poses.items()},
+        intrinsics=frames.intrinsics, legend=about["legend"])
+
+
+def _joint_names(env):
+    """Returns the names of the arm's joints: the Panda's, else joint1, joint2 ..."""
+    size = len(env.state()["robot_joints"])
+    if env.robot in ("panda", "panda_on_base"):
+        return _PANDA[:size]
+    return tuple(f"joint{number}" for number in range(1, size + 1))
+
+
+def _pose(told):
+    """Returns the pose (4, 4) of a position and a quaternion w x y z of a task file."""
+    w, x, y, z = told["quaternion_wxyz"]
+    pose = np.eye(4)
+    pose[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                    [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                    [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+    pose[:3, 3] = told["position"]
+    return pose
+
+
+class _Descriptions:
+    """States which task of a file an episode has: its name, its sentences, the robot's pose."""
+
+    def __init__(self, env):
+        with open(env.tasks_file, encoding="utf-8") as stream:
+            tasks = json.load(stream)["tasks"]
+        chosen = set(env.task.tasks)
+        self._tasks = [task for task in tasks if task["name"] in chosen]
+        self._subtask = env.subtask_index
+
+    def episode(self, env):
+        legend = env.camera("render")["legend"]
+        task = self._find(legend, env.state()["target"])
+        subtasks = task["subtasks"]
+        if self._subtask is not None:
+            subtasks = subtasks[self._subtask:self._subtask + 1]
+        return {"task": task["name"], "legend": legend,
+                "base": _pose(task["subtasks"][self._subtask or 0]["start"]["robot"]),
+                "instructions": [subtask["description"] for subtask in subtasks]}
+
+    def _find(self, legend, target):
+        """Returns the task with the target object and the target link that the legend names."""
+        found = [task for task in self._tasks if not target or target in task["assets"]]
+        links = [name.split("/", 1)[1] for name in legend.values() if "/" in name]
+        for link in links if len(found) > 1 else []:
+            word = re.compile(rf'"{re.escape(link)}(_joint)?"')
+            found = [task for task in found
+                     if word.search("\n".join(task["subtasks"][self._subtask or 0]["program"]))] or found
+        return (found or self._tasks)[0]
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="python -m simwright.demonstrations", description="Records demonstrations of a skill "
+        "with camera images, for imitation learning (docs/demonstrations.md).",
+        formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+    add = parser.add_argument
+    add("--skill", required=True, help="such as open_drawer, or a long task such as apple_into_drawer")
+    add("--episodes", type=int, default=50, help="number of episodes to keep")
+    add("--format", required=True, choices=list(FORMATS), help="of the data set")
+    add("-o", "--output", required=True, help="folder (lerobot) or file (mcap, robomimic)")
+    add("--cameras", default="front,wrist", help="front, wrist, both with a comma, or none")
+    add("--image-size", type=int, default=128, help="pixels a side")
+    add("--look", choices=["none", "wide"], default="none", help="randomisation of colours and lights")
+    add("--policy", choices=["expert", "shipped"], default="expert", help="what acts")
+    add("--split", choices=["train", "unseen"], default="train", help="instances of the objects")
+    add("--instances", type=int, default=None, help="number of instances; default: the skill's")
+    add("--keep", choices=["successes", "all"], default="successes", help="episodes to keep")
+    add("--actions", choices=["joint_targets", "policy"], default="joint_targets",
+        help="commanded joints, or the policy's actions relative to the object")
+    add("--seed", type=int, default=1, help="of the episodes and their looks")
+    add("--quiet", action="store_true", help="shows no progress")
+    return parser
+
+
+def main(arguments=None):
+    """Runs the command; returns its exit code."""
+    told = _parser().parse_args(arguments)
+    settings = {} if told.instances is None else {"instances": told.instances}
+    if told.skill in skills.names():
+        settings["split"] = told.split
+    cameras = [] if told.cameras == "none" else told.cameras.split(",")
+    module, extra, write = FORMATS[told.format]
+    try:
+        need(module, extra)
+        episodes = record(told.skill, told.episodes, policy=told.policy, cameras=cameras,
+                          image_size=told.image_size, look=None if told.look == "none" else told.look,
+                          seed=told.seed, keep=told.keep, progress=False if told.quiet else None,
+                          **settings)
+        report = write(told.output, episodes,
+                       **({} if told.format == "mcap" else {"actions": told.actions}))
+    except (_core.Error, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("error: interrupted (run the command again)", file=sys.stderr)
+        return 130
+    print(f"{told.output}: {report['episodes']} episodes, {report['steps']} steps, "
+          f"{report['successes']} successes")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
