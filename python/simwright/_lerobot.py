@@ -1,5 +1,7 @@
 """LeRobotDataset v3, written by the package lerobot."""
 
+import copy
+
 import numpy as np
 
 from . import _core
@@ -31,29 +33,40 @@ def write_lerobot(root, episodes, repo_id="simwright/demonstrations", fps=_FRAME
     if fps != _FRAMES_PER_SECOND:
         raise _core.Error(f"fps: is {fps} (the episodes have 20 frames per second)")
     totals = Totals(root)
-    dataset, described = None, None
     with placed(root, False) as partial:
-        for episode in episodes:
-            told = _features(episode, actions, videos)
-            if dataset is None:
-                described = told
-                dataset = module.LeRobotDataset.create(
-                    repo_id=repo_id, fps=fps, features=told, root=partial, robot_type=episode.robot,
-                    use_videos=videos, image_writer_threads=2 if episode.images else 0)
-            elif told != described:
-                raise _core.Error(f"{root}: episode {totals.episodes} has other features than the "
-                                  "first one (record them with equal settings)")
-            for frame in _frames(episode, actions):
-                dataset.add_frame(frame)
-            dataset.save_episode()
-            totals.add(episode)
-        report = totals.report()
-        dataset.finalize()
-        # The writer of images holds threads, which would wait for ever.
-        stop = getattr(dataset, "stop_image_writer", None)
-        if stop is not None:
-            stop()
+        dataset = None
+        try:
+            for episode in episodes:
+                told = _features(episode, actions, videos)
+                if dataset is None:
+                    described = told
+                    # The package changes the features that it is given.
+                    dataset = module.LeRobotDataset.create(
+                        repo_id=repo_id, fps=fps, features=copy.deepcopy(told), root=partial,
+                        robot_type=episode.robot, use_videos=videos,
+                        image_writer_threads=2 if episode.images else 0)
+                elif told != described:
+                    raise _core.Error(f"{root}: episode {totals.episodes} has other features than "
+                                      "the first one (record them with equal settings)")
+                for frame in _frames(episode, actions):
+                    dataset.add_frame(frame)
+                dataset.save_episode()
+                totals.add(episode)
+            report = totals.report()
+        finally:
+            if dataset is not None:
+                dataset.finalize()
+                _stop_threads(dataset)
     return report
+
+
+def _stop_threads(dataset):
+    """Ends the threads that write images, which would write into a folder that is removed."""
+    stop = getattr(dataset, "stop_image_writer", None)
+    writer = getattr(dataset, "writer", None)
+    stop = stop or getattr(writer, "stop_image_writer", None)
+    if stop is not None:
+        stop()
 
 
 def _pictures(episode):
