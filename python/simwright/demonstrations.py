@@ -26,7 +26,7 @@ from ._output import need
 from ._progress import reporter
 from ._robomimic import write_robomimic
 
-__all__ = ["Episode", "record", "write_lerobot", "write_mcap", "write_robomimic"]
+__all__ = ["Episode", "describe", "record", "write_lerobot", "write_mcap", "write_robomimic"]
 
 STEP_SECONDS = 0.05
 # Fewer successes than this share of the attempts end a recording.
@@ -325,10 +325,28 @@ def _pose(told):
     return pose
 
 
+def describe(env):
+    """Returns what the present episode of an environment with cameras is about.
+
+    Args:
+        env (SkillEnv or LongTaskEnv): with cameras or a render_mode.
+
+    Returns:
+        dict: ``task`` (name), ``instructions`` (a sentence for each subtask), ``base`` (4, 4), world
+        from the robot's base, m, ``legend``, the names of the labels of segmentations.
+
+    Raises:
+        Error: for an environment without cameras.
+    """
+    return _Descriptions(env).episode(env)
+
+
 class _Descriptions:
-    """States which task of a file an episode has: its name, its sentences, the robot's pose."""
+    """States what episodes are about; reads the task file once."""
 
     def __init__(self, env):
+        if not env._specs:
+            raise _core.Error("describe: the environment has no cameras (make it with some)")
         with open(env.tasks_file, encoding="utf-8") as stream:
             tasks = json.load(stream)["tasks"]
         chosen = set(env.task.tasks)
@@ -336,7 +354,7 @@ class _Descriptions:
         self._subtask = env.subtask_index
 
     def episode(self, env):
-        legend = env.camera("render")["legend"]
+        legend = env.camera(env._specs[0].name)["legend"]
         task = self._find(legend, env.state()["target"])
         subtasks = task["subtasks"]
         if self._subtask is not None:

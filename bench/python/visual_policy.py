@@ -1,0 +1,307 @@
+"""Trains a policy on camera images by behaviour cloning, and measures it on unseen objects.
+
+    PYTHONPATH=build/python python bench/python/visual_policy.py -o out/visual_policy
+    PYTHONPATH=build/python python bench/python/visual_policy.py -o out/visual_policy --resume
+
+It records demonstrations of the scripted expert, with the cameras "front" and "wrist", trains a small
+network and prints its success beside that of the shipped policy, which sees the simulated state. The
+network sees both images, the robot's joints, gripper opening and tool pose, and what to act on: the
+outline of the target in the first front image, as a user's click on a segmenter gives it (--goal
+outline), or the number in the instruction (--goal number). It predicts a chunk of joint targets
+relative to the present joints, so that neither inputs nor actions know the object's pose.
+
+Each stage is resumed where it stopped: recording by blocks of 20 demonstrations, training by epoch,
+measuring by episode. --minutes bounds the training.
+"""
+
+import argparse
+import json
+import re
+import time
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch import nn
+
+import simwright as sw
+from simwright import demonstrations, envs
+
+BLOCK = 20
+NUMBERS = 8
+CAMERAS = ("front", "wrist")
+# The Panda's joint ranges, rad, by which the action space "joint_targets" is scaled.
+LOWER = np.array([-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973])
+UPPER = np.array([2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973])
+
+
+def body(joints, opening, tool):
+    """Returns what the robot knows of itself (17): joints, opening, tool position and two axes."""
+    return np.concatenate([joints, [opening], tool[:3, 3], tool[:3, 0], tool[:3, 2]]).astype(np.float32)
+
+
+def outline(segmentation, legend):
+    """Returns the pixels (H, W) uint8 of the target: its link if it has one, else its object."""
+    names = {number: name for number, name in legend.items() if number > 2}
+    links = [number for number, name in names.items() if "/" in name]
+    return np.isin(segmentation, links or list(names)).astype(np.uint8)
+
+
+def number_of(instruction):
+    """Returns the first number of the instruction, one-hot (NUMBERS)."""
+    found = re.search(r"\d+", instruction)
+    hot = np.zeros(NUMBERS, np.float32)
+    hot[min(int(found.group()) if found else 0, NUMBERS - 1)] = 1.0
+    return hot
+
+
+def record(told, folder):
+    """Records the demonstrations that are missing; returns the paths of all blocks."""
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = []
+    for block in range(-(-told.demos // BLOCK)):
+        path = folder / f"block_{block:04d}.npz"
+        paths.append(path)
+        if path.exists():
+            continue
+        began = time.monotonic()
+        count = min(BLOCK, told.demos - block * BLOCK)
+        rows = {key: [] for key in ("front", "wrist", "bodies", "commands", "joints", "lengths",
+                                    "outlines", "numbers")}
+        for episode in demonstrations.record(
+                told.skill, count, image_size=told.image_size, look=told.look,
+                images=["rgb", "segmentation"], seed=told.seed + block, progress=False,
+                **({"instances": told.instances} if told.instances else {})):
+            for name in CAMERAS:
+                rows[name].append(episode.images[name][:-1])
+            rows["bodies"].append(np.stack([body(*one) for one in zip(
+                episode.joints[:-1], episode.openings[:-1], episode.tools[:-1])]))
+            rows["commands"].append(episode.commands.astype(np.float32))
+            rows["joints"].append(episode.joints[:-1].astype(np.float32))
+            rows["lengths"].append([len(episode)])
+            rows["outlines"].append(outline(episode.images["front_segmentation"][:1], episode.legend))
+            rows["numbers"].append(number_of(episode.instruction)[None])
+        partial = path.with_suffix(".partial.npz")
+        np.savez(partial, **{key: np.concatenate(value) for key, value in rows.items()})
+        partial.replace(path)
+        print(f"recorded {block * BLOCK + count} of {told.demos} "
+              f"({(time.monotonic() - began) / count:.1f} s each)", flush=True)
+    return paths
+
+
+class Demonstrations:
+    """All frames in memory; `batch` makes inputs and chunks of actions of frame numbers."""
+
+    def __init__(self, paths, told):
+        loaded = [np.load(path) for path in paths]
+        self._rows = {key: np.concatenate([one[key] for one in loaded]) for key in loaded[0].files}
+        lengths = self._rows["lengths"]
+        self.count = int(lengths.sum())
+        ends = np.cumsum(lengths)
+        self._episode = np.repeat(np.arange(len(lengths)), lengths)
+        # Beyond the end of an episode, the last command repeats.
+        steps = np.arange(self.count)[:, None] + np.arange(told.chunk)
+        steps = np.minimum(steps, ends[self._episode][:, None] - 1)
+        targets = self._rows["commands"][steps]
+        targets[..., :7] -= self._rows["joints"][:, None]
+        self._goal = told.goal
+        self.action_scale = torch.tensor(targets.reshape(-1, 8).std(axis=0) + 1e-3)
+        self._targets = torch.tensor(targets)
+        self.body_mean = torch.tensor(self._rows["bodies"].mean(axis=0))
+        self.body_scale = torch.tensor(self._rows["bodies"].std(axis=0) + 1e-3)
+
+    def batch(self, frames):
+        episodes = self._episode[frames]
+        images = [torch.from_numpy(self._rows[name][frames]) for name in CAMERAS]
+        return (images, torch.from_numpy(self._rows["outlines"][episodes]),
+                torch.from_numpy(self._rows["bodies"][frames]),
+                torch.from_numpy(self._rows["numbers"][episodes])), self._targets[frames]
+
+
+class VisualPolicy(nn.Module):
+    """A convolutional network for each camera, and a multilayer perceptron over all inputs."""
+
+    def __init__(self, chunk, goal):
+        super().__init__()
+        self.chunk, self.goal = chunk, goal
+        self.eyes = nn.ModuleList(self._eye(3 + (goal == "outline" and name == "front"))
+                                  for name in CAMERAS)
+        size = 2 * 2 * 64 + 17 + (NUMBERS if goal == "number" else 0)
+        self.head = nn.Sequential(nn.Linear(size, 512), nn.ReLU(), nn.Linear(512, 512), nn.ReLU(),
+                                  nn.Linear(512, 8 * chunk))
+        for name, length in (("body_mean", 17), ("body_scale", 17), ("action_scale", 8)):
+            self.register_buffer(name, torch.ones(length))
+
+    @staticmethod
+    def _eye(channels):
+        layers = []
+        for width, stride in ((32, 2), (64, 2), (64, 1), (64, 1)):
+            layers += [nn.Conv2d(channels, width, 3, stride, 1), nn.GroupNorm(8, width), nn.ReLU()]
+            channels = width
+        return nn.Sequential(*layers)
+
+    @staticmethod
+    def _points(features):
+        """Returns the mean position of each feature map (N, 2 C), by softmax over its pixels."""
+        count, channels, height, width = features.shape
+        weights = torch.softmax(features.flatten(2), dim=2).view(count, channels, height, width)
+        rows = torch.linspace(-1, 1, height)
+        columns = torch.linspace(-1, 1, width)
+        return torch.cat([(weights.sum(3) * rows).sum(2), (weights.sum(2) * columns).sum(2)], dim=1)
+
+    def forward(self, images, outlines, bodies, numbers, shift=0):
+        """Returns a chunk of actions (N, chunk, 8): joints relative to the present ones, rad, and
+        the gripper's command. ``shift``: pixels of random translation, while training."""
+        parts = [(bodies - self.body_mean) / self.body_scale]
+        for name, image, eye in zip(CAMERAS, images, self.eyes):
+            pixels = image.permute(0, 3, 1, 2).float() / 255 - 0.5
+            if self.goal == "outline" and name == "front":
+                pixels = torch.cat([pixels, outlines[:, None].float()], dim=1)
+            if shift:
+                side = pixels.shape[-1]
+                pixels = nn.functional.pad(pixels, [shift] * 4, mode="replicate")
+                top, left = torch.randint(0, 2 * shift + 1, (2,)).tolist()
+                pixels = pixels[:, :, top:top + side, left:left + side]
+            parts.append(self._points(eye(pixels)))
+        if self.goal == "number":
+            parts.append(numbers)
+        actions = self.head(torch.cat(parts, dim=1)).view(-1, self.chunk, 8)
+        return actions * self.action_scale
+
+
+def train(told, data, path):
+    """Trains until the epochs or minutes are used; continues from a checkpoint at `path`."""
+    torch.manual_seed(told.seed)
+    policy = VisualPolicy(told.chunk, told.goal)
+    for name in ("body_mean", "body_scale", "action_scale"):
+        getattr(policy, name).copy_(getattr(data, name))
+    optimizer = torch.optim.AdamW(policy.parameters(), lr=1e-3, weight_decay=1e-4)
+    state = {"epoch": 0, "seconds": 0.0}
+    if path.exists():
+        saved = torch.load(path, weights_only=True)
+        policy.load_state_dict(saved["policy"])
+        optimizer.load_state_dict(saved["optimizer"])
+        state = saved["state"]
+    began = time.monotonic() - state["seconds"]
+    for epoch in range(state["epoch"], told.epochs):
+        spent = time.monotonic() - began
+        if spent > 60 * told.minutes:
+            break
+        # The rate falls as the epochs or the minutes are used, whichever are used first.
+        share = max(epoch / told.epochs, spent / (60 * told.minutes))
+        for group in optimizer.param_groups:
+            group["lr"] = 1e-5 + 0.5 * (1e-3 - 1e-5) * (1 + np.cos(np.pi * share))
+        torch.manual_seed(told.seed + epoch)
+        order = np.random.default_rng([told.seed, epoch]).permutation(data.count)
+        losses = []
+        for start in range(0, data.count, told.batch):
+            inputs, targets = data.batch(order[start:start + told.batch])
+            predicted = policy(*inputs, shift=max(1, told.image_size // 16))
+            loss = ((predicted - targets).abs() / policy.action_scale).mean()
+            optimizer.zero_grad()
+            loss.backward()
+            optimizer.step()
+            losses.append(loss.item())
+        state = {"epoch": epoch + 1, "seconds": time.monotonic() - began}
+        partial = path.with_suffix(".partial")
+        torch.save({"policy": policy.state_dict(), "optimizer": optimizer.state_dict(),
+                    "state": state}, partial)
+        partial.replace(path)
+        print(f"epoch {epoch + 1} of {told.epochs}: loss {np.mean(losses):.4f}, "
+              f"{state['seconds'] / 60:.1f} min", flush=True)
+    return policy.eval(), state
+
+
+class _Sight:
+    """Makes the network's inputs of an environment's observation."""
+
+    def __init__(self, env, observation):
+        self._env = env
+        told = demonstrations.describe(env)
+        first = observation["front_segmentation"][None]
+        self._outline = torch.from_numpy(outline(first, told["legend"]))
+        self._number = torch.from_numpy(number_of(told["instructions"][0])[None])
+        self._base_from_world = np.linalg.inv(told["base"])
+
+    def __call__(self, observation):
+        state = self._env.state()
+        tool = self._base_from_world @ state["gripper_pose"]
+        images = [torch.from_numpy(observation[name][None]) for name in CAMERAS]
+        own = body(state["robot_joints"], state["gripper_opening"], tool)
+        return (images, self._outline, torch.from_numpy(own[None]), self._number), \
+            state["robot_joints"]
+
+
+def run(env, observation, policy, execute):
+    """Runs an episode; returns whether it succeeded."""
+    sight = _Sight(env, observation)
+    while True:
+        inputs, joints = sight(observation)
+        with torch.inference_mode():
+            chunk = policy(*inputs)[0, :execute].double().numpy()
+        for command in chunk:
+            targets = (2 * (joints + command[:7]) - LOWER - UPPER) / (UPPER - LOWER)
+            action = np.clip(np.append(targets, command[7]), -1, 1).astype(np.float32)
+            observation, _, terminated, truncated, info = env.step(action)
+            if terminated or truncated:
+                return bool(info["is_success"])
+
+
+def measure(told, policy, path):
+    """Returns the successes of the episodes, continued from those in `path`."""
+    results = json.loads(path.read_text()) if path.exists() else []
+    env = envs.SkillEnv(cell=told.skill, split="unseen", action_space="joint_targets",
+                        cameras=CAMERAS, image_size=told.image_size, look=told.look,
+                        images=["rgb", "segmentation"])
+    observation, _ = env.reset(seed=told.seed)
+    for episode in range(told.episodes):
+        if episode >= len(results):
+            results.append(run(env, observation, policy, told.execute))
+            path.write_text(json.dumps(results))
+        observation, _ = env.reset()
+    return results[:told.episodes]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0],
+                                     formatter_class=argparse.ArgumentDefaultsHelpFormatter)
+    add = parser.add_argument
+    add("-o", "--output", type=Path, required=True, help="folder of demonstrations and checkpoints")
+    add("--resume", action="store_true", help="continues in a folder that exists")
+    add("--skill", default="open_drawer", help="a skill of the Panda")
+    add("--demos", type=int, default=200, help="number of demonstrations")
+    add("--instances", type=int, default=None, help="of the objects; default: the skill's")
+    add("--image-size", type=int, default=64, help="pixels a side")
+    add("--look", choices=["wide"], default=None, help="randomises looks")
+    add("--goal", choices=["outline", "number"], default="outline", help="what to act on")
+    add("--chunk", type=int, default=8, help="actions predicted at once, 0.05 s each")
+    add("--execute", type=int, default=4, help="of them that are executed")
+    add("--epochs", type=int, default=100, help="at most")
+    add("--minutes", type=float, default=60.0, help="of training, at most")
+    add("--batch", type=int, default=128, help="frames")
+    add("--episodes", type=int, default=100, help="of the measurement")
+    add("--threads", type=int, default=2, help="of the training")
+    add("--seed", type=int, default=1, help="of all stages")
+    told = parser.parse_args()
+    if told.output.exists() and not told.resume:
+        parser.error(f"{told.output} exists (give --resume, or another folder)")
+    torch.set_num_threads(told.threads)
+    data = Demonstrations(record(told, told.output / "demonstrations"), told)
+    policy, state = train(told, data, told.output / "policy.pt")
+    results = measure(told, policy, told.output / f"episodes_{state['epoch']}.json")
+    shipped = sw.skills.evaluate(told.skill, told.episodes, seed=told.seed, progress=False)
+    low, high = sw.skills.wilson_interval(sum(results), len(results))
+    print(f"{told.skill}: {told.demos} demonstrations, {data.count} frames, {state['epoch']} epochs, "
+          f"{state['seconds'] / 60:.1f} min of training")
+    print(f"images: {sum(results)} of {len(results)} unseen episodes, 95 % {low:.2f} to {high:.2f}")
+    print(f"state:  {shipped['successes']} of {shipped['episodes']}, 95 % "
+          f"{shipped['interval'][0]:.2f} to {shipped['interval'][1]:.2f} (shipped policy)")
+    (told.output / "result.json").write_text(json.dumps({
+        "images": {"successes": sum(results), "episodes": len(results), "interval": [low, high]},
+        "state": {"successes": shipped["successes"], "episodes": shipped["episodes"],
+                  "interval": list(shipped["interval"])},
+        "training": state, "demonstrations": told.demos, "frames": data.count}, indent=1))
+
+
+if __name__ == "__main__":
+    main()
