@@ -3,12 +3,12 @@
     PYTHONPATH=build/python python bench/python/visual_policy.py -o out/visual_policy
     PYTHONPATH=build/python python bench/python/visual_policy.py -o out/visual_policy --resume
 
-It records demonstrations of the scripted expert, with the cameras "front" and "wrist", trains a small
-network and prints its success beside that of the shipped policy, which sees the simulated state. The
-network sees both images, the robot's joints, gripper opening and tool pose, and what to act on: the
-outline of the target in the first front image, as a user's click on a segmenter gives it (--goal
-outline), or the number in the instruction (--goal number). It predicts a chunk of joint targets
-relative to the present joints, so that neither inputs nor actions know the object's pose.
+It records demonstrations of the scripted expert, with the cameras "front" and "wrist", trains a
+small network and prints its success beside that of the shipped policy, which sees the simulated
+state. The network sees both images, the robot's joints, gripper opening and tool pose, and what to
+act on: the outline of the target in the first front image, as a click on a segmenter gives it
+(--goal outline), or the number in the instruction (--goal number). It predicts a chunk of targets
+of the joints relative to the present ones, so that neither inputs nor actions know the object's pose.
 
 Each stage is resumed where it stopped: recording by blocks of 20 demonstrations, training by epoch,
 measuring by episode. --minutes bounds the training.
@@ -16,6 +16,7 @@ measuring by episode. --minutes bounds the training.
 
 import argparse
 import json
+import math
 import re
 import time
 from pathlib import Path
@@ -37,7 +38,8 @@ UPPER = np.array([2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973])
 
 def body(joints, opening, tool):
     """Returns what the robot knows of itself (17): joints, opening, tool position and two axes."""
-    return np.concatenate([joints, [opening], tool[:3, 3], tool[:3, 0], tool[:3, 2]]).astype(np.float32)
+    parts = [joints, [opening], tool[:3, 3], tool[:3, 0], tool[:3, 2]]
+    return np.concatenate(parts).astype(np.float32)
 
 
 def outline(segmentation, legend):
@@ -66,7 +68,7 @@ def record(told, folder):
             continue
         began = time.monotonic()
         count = min(BLOCK, told.demos - block * BLOCK)
-        rows = {key: [] for key in ("front", "wrist", "bodies", "commands", "joints", "lengths",
+        rows = {key: [] for key in ("front", "wrist", "bodies", "targets", "joints", "lengths",
                                     "outlines", "numbers")}
         for episode in demonstrations.record(
                 told.skill, count, image_size=told.image_size, look=told.look,
@@ -76,10 +78,11 @@ def record(told, folder):
                 rows[name].append(episode.images[name][:-1])
             rows["bodies"].append(np.stack([body(*one) for one in zip(
                 episode.joints[:-1], episode.openings[:-1], episode.tools[:-1])]))
-            rows["commands"].append(episode.commands.astype(np.float32))
+            rows["targets"].append(episode.targets.astype(np.float32))
             rows["joints"].append(episode.joints[:-1].astype(np.float32))
             rows["lengths"].append([len(episode)])
-            rows["outlines"].append(outline(episode.images["front_segmentation"][:1], episode.legend))
+            first = episode.images["front_segmentation"][:1]
+            rows["outlines"].append(outline(first, episode.legend))
             rows["numbers"].append(number_of(episode.instruction)[None])
         partial = path.with_suffix(".partial.npz")
         np.savez(partial, **{key: np.concatenate(value) for key, value in rows.items()})
@@ -99,10 +102,10 @@ class Demonstrations:
         self.count = int(lengths.sum())
         ends = np.cumsum(lengths)
         self._episode = np.repeat(np.arange(len(lengths)), lengths)
-        # Beyond the end of an episode, the last command repeats.
+        # Beyond the end of an episode, the last target repeats.
         steps = np.arange(self.count)[:, None] + np.arange(told.chunk)
         steps = np.minimum(steps, ends[self._episode][:, None] - 1)
-        targets = self._rows["commands"][steps]
+        targets = self._rows["targets"][steps]
         targets[..., :7] -= self._rows["joints"][:, None]
         self._goal = told.goal
         self.action_scale = torch.tensor(targets.reshape(-1, 8).std(axis=0) + 1e-3)
@@ -190,7 +193,7 @@ def train(told, data, path):
         # The rate falls as the epochs or the minutes are used, whichever are used first.
         share = max(epoch / told.epochs, spent / (60 * told.minutes))
         for group in optimizer.param_groups:
-            group["lr"] = 1e-5 + 0.5 * (1e-3 - 1e-5) * (1 + np.cos(np.pi * share))
+            group["lr"] = 1e-5 + 0.5 * (1e-3 - 1e-5) * (1 + math.cos(math.pi * share))
         torch.manual_seed(told.seed + epoch)
         order = np.random.default_rng([told.seed, epoch]).permutation(data.count)
         losses = []
@@ -291,8 +294,8 @@ def main():
     results = measure(told, policy, told.output / f"episodes_{state['epoch']}.json")
     shipped = sw.skills.evaluate(told.skill, told.episodes, seed=told.seed, progress=False)
     low, high = sw.skills.wilson_interval(sum(results), len(results))
-    print(f"{told.skill}: {told.demos} demonstrations, {data.count} frames, {state['epoch']} epochs, "
-          f"{state['seconds'] / 60:.1f} min of training")
+    print(f"{told.skill}: {told.demos} demonstrations, {data.count} frames, {state['epoch']} "
+          f"epochs, {state['seconds'] / 60:.1f} min of training")
     print(f"images: {sum(results)} of {len(results)} unseen episodes, 95 % {low:.2f} to {high:.2f}")
     print(f"state:  {shipped['successes']} of {shipped['episodes']}, 95 % "
           f"{shipped['interval'][0]:.2f} to {shipped['interval'][1]:.2f} (shipped policy)")

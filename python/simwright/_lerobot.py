@@ -81,10 +81,11 @@ def _features(episode, actions, videos):
 
     joints = list(episode.joint_names)
     size = episode.actions.shape[1]
-    observed, acted = episode.states.shape[1], [f"action_{i}" for i in range(size)]
+    observed = [f"policy_{i}" for i in range(episode.states.shape[1])]
+    acted = [f"action_{i}" for i in range(size)]
     features = {
         "observation.state": numbers(len(joints) + 1, joints + ["gripper_opening"]),
-        "observation.environment_state": numbers(observed, [f"policy_{i}" for i in range(observed)]),
+        "observation.environment_state": numbers(len(observed), observed),
         "policy_action": numbers(size, acted),
         "action": numbers(len(joints) + 1, joints + ["gripper"]) if actions == "joint_targets"
         else numbers(size, acted),
@@ -104,7 +105,7 @@ def _frames(episode, actions):
     """Yields the T frames of an episode."""
     pictures = _pictures(episode)
     own = np.concatenate([episode.joints, episode.openings[:, None]], axis=1).astype(np.float32)
-    chosen = (episode.commands if actions == "joint_targets"
+    chosen = (episode.targets if actions == "joint_targets"
               else episode.chosen_actions(actions)[1]).astype(np.float32)
     for step in range(len(episode)):
         frame = {

@@ -23,7 +23,7 @@ def _definition(text, **parts):
     names = {"time": ("builtin_interfaces/Time", _TIME), "header": ("std_msgs/Header", _HEADER),
              "vector": ("geometry_msgs/Vector3", _VECTOR),
              "quaternion": ("geometry_msgs/Quaternion", _QUATERNION)}
-    known = [names[part] for part in ("time", "header", "vector", "quaternion") if parts.pop(part, 0)]
+    known = [names[part] for part in names if parts.pop(part, 0)]
     known += [(name.replace("__", "/"), body) for name, body in parts.items()]
     return text + "".join(f"{_RULE}MSG: {name}\n{body}" for name, body in known)
 
@@ -41,8 +41,9 @@ _SCHEMAS = {
     "sensor_msgs/msg/CompressedImage": _definition(
         "std_msgs/Header header\nstring format\nuint8[] data\n", time=1, header=1),
     "sensor_msgs/msg/CameraInfo": _definition(
-        "std_msgs/Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] d\n"
-        "float64[9] k\nfloat64[9] r\nfloat64[12] p\nuint32 binning_x\nuint32 binning_y\n"
+        "std_msgs/Header header\nuint32 height\nuint32 width\nstring distortion_model\n"
+        "float64[] d\nfloat64[9] k\nfloat64[9] r\nfloat64[12] p\nuint32 binning_x\n"
+        "uint32 binning_y\n"
         "sensor_msgs/RegionOfInterest roi\n", time=1, header=1,
         sensor_msgs__RegionOfInterest="uint32 x_offset\nuint32 y_offset\nuint32 height\n"
                                       "uint32 width\nbool do_rectify\n"),
@@ -62,7 +63,8 @@ def png(image):
         return (struct.pack(">I", len(body)) + kind + body
                 + struct.pack(">I", zlib.crc32(kind + body)))
 
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+    head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head)
             + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b""))
 
 
@@ -70,8 +72,8 @@ def write_mcap(path, episodes, start_seconds=0.0):
     """Writes demonstrations as MCAP files of ROS 2 messages, for ``ros2 bag`` and Foxglove.
 
     Args:
-        path: NAME.mcap, one file in which a second separates the episodes, or a folder, which must not
-            exist, of one file for each episode (episode_000001.mcap ...).
+        path: NAME.mcap, one file in which a second separates the episodes, or a folder, which must
+            not exist, of one file for each episode (episode_000001.mcap ...).
         episodes: iterable of Episode.
         start_seconds (float): stamp of the first frame, s.
 
@@ -150,7 +152,8 @@ class _File:
         if step < len(episode):
             self._joints("/joint_commands", list(episode.joint_names) + ["gripper"],
                          episode.commands[step].tolist())
-        frames = [("world", "robot_base", episode.base), ("robot_base", "tool", episode.tools[step])]
+        frames = [("world", "robot_base", episode.base),
+                  ("robot_base", "tool", episode.tools[step])]
         frames += [("world", name, entry["poses"][step]) for name, entry in episode.objects.items()]
         frames += [("world", f"{name}_optical_frame", poses[step])
                    for name, poses in episode.camera_poses.items()]
@@ -177,6 +180,7 @@ class _File:
             self._send(f"/{name}/image/compressed", "sensor_msgs/msg/CompressedImage",
                        {"header": header, "format": "png", "data": png(image)})
             fx, fy, cx, cy = map(float, intrinsics)
+            whole = {"x_offset": 0, "y_offset": 0, "height": 0, "width": 0, "do_rectify": False}
             self._send(f"/{name}/camera_info", "sensor_msgs/msg/CameraInfo", {
                 "header": header, "height": image.shape[0], "width": image.shape[1],
                 "distortion_model": "plumb_bob", "d": [0.0] * 5,
@@ -184,7 +188,7 @@ class _File:
                 "r": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
                 "p": [fx, 0.0, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
                 "binning_x": 0, "binning_y": 0,
-                "roi": {"x_offset": 0, "y_offset": 0, "height": 0, "width": 0, "do_rectify": False}})
+                "roi": whole})
 
 
 def _prefix(episode):

@@ -58,8 +58,8 @@ def write_robomimic(path, episodes, actions="joint_targets", valid_share=0.1):
                     starts = described
                     data.attrs["env_args"] = json.dumps(_env_args(episode, chosen[0]))
                 elif described != starts:
-                    raise _core.Error(f"{path}: episode {totals.episodes} has other observations than "
-                                      "the first one (record them with equal settings)")
+                    raise _core.Error(f"{path}: episode {totals.episodes} has other observations "
+                                      "than the first one (record them with equal settings)")
                 _write_demo(data.create_group(f"demo_{totals.episodes}"), episode, chosen[1])
                 lengths.append(len(episode))
                 successes.append(episode.success)

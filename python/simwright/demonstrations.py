@@ -6,8 +6,8 @@
 
     python -m simwright.demonstrations --skill open_drawer --episodes 50 --format lerobot -o drawers
 
-``record`` yields one episode after the other; the writers take any iterable of episodes and hold one
-in memory. docs/demonstrations.md lists the keys of each format.
+``record`` yields one episode after the other; the writers take any iterable of episodes and hold
+one in memory. docs/demonstrations.md lists the keys of each format.
 """
 
 import argparse
@@ -56,19 +56,21 @@ class Episode:
         success (bool): the goal was held for half a second.
         instructions (list of str): a sentence for each subtask.
         subtasks (T + 1) int: index of the current subtask.
-        states (T + 1, O) float32: the policies' observation, which knows the objects (docs/skills.md).
+        states (T + 1, O) float32: the policies' observation, which knows the objects
+            (docs/skills.md).
         joints (T + 1, J): the arm's joints, rad or m; ``joint_names`` (J).
         openings (T + 1): m between the fingertips.
         tools (T + 1, 4, 4): robot's base from the frame between the fingertips, m.
         base (4, 4): world from the robot's base, m.
-        objects (dict): by name, ``poses`` (T + 1, 4, 4), world from object, m, ``joints`` (T + 1, K)
-            and ``joint_names`` (K).
+        objects (dict): by name, ``poses`` (T + 1, 4, 4), world from object, m, ``joints``
+            (T + 1, K) and ``joint_names`` (K).
         actions (T, A) float32: of the policy, in [-1, 1], in the space ``action_space``.
-        commands (T, J + 1): the arm's set points at the end of the step, rad or m, and the gripper's
-            command in [-1, 1], which opens it at 1. Unlike actions they do not depend on the object.
+        commands (T, J + 1): the arm's set points at the end of the step, rad or m, and the
+            gripper's command in [-1, 1], which opens it at 1. Unlike actions they are not relative
+            to the object.
         rewards (T) float32, dones (T) bool: 1 at the end; goals (T) bool: the goal holds.
-        images (dict): by camera, (T + 1, H, W, 3) uint8 RGB; NAME_depth (T + 1, H, W) float32, m, and
-            NAME_segmentation (T + 1, H, W) int32, where they were asked for.
+        images (dict): by camera, (T + 1, H, W, 3) uint8 RGB; NAME_depth (T + 1, H, W) float32, m,
+            and NAME_segmentation (T + 1, H, W) int32, where they were asked for.
         camera_poses (dict): by camera, (T + 1, 4, 4), world from camera, +z forward, y down, m.
         intrinsics (dict): by camera, fx, fy, cx, cy in pixels.
         legend (dict): names of the labels of segmentations.
@@ -113,12 +115,21 @@ class Episode:
         """The sentence of a task of one subtask, or those of all subtasks."""
         return " ".join(self.instructions)
 
+    @property
+    def targets(self):
+        """(T, J + 1) what an arm that follows joint targets is sent: the set points at the end of
+        the next step, rad or m, since the arm arrives about a step later, and the gripper's command
+        of this step."""
+        rows = self.commands.copy()
+        rows[:-1, :-1] = self.commands[1:, :-1]
+        return rows
+
     def chosen_actions(self, which):
         """Returns an action space and the actions (T, A) float32 in it, in [-1, 1].
 
         Args:
-            which (str): "policy", the actions in ``action_space``, or "joint_targets", the commands in
-                the environments' action space of this name.
+            which (str): "policy", the actions in ``action_space``, or "joint_targets", ``targets``
+                in the environments' action space of this name.
 
         Raises:
             Error: for another name, or joint targets of another robot than the Panda.
@@ -128,9 +139,9 @@ class Episode:
         if which != "joint_targets":
             raise _core.Error(f"actions: is {which!r} (give 'joint_targets' or 'policy')")
         if self.joint_names != _PANDA:
-            raise _core.Error(f"actions: the joints' ranges of {self.robot} are not known here (give "
-                              "actions='policy')")
-        targets = self.commands.copy()
+            raise _core.Error(f"actions: the joints' ranges of {self.robot} are not known here "
+                              "(give actions='policy')")
+        targets = self.targets
         middle, half = 0.5 * (_PANDA_UPPER + _PANDA_LOWER), 0.5 * (_PANDA_UPPER - _PANDA_LOWER)
         targets[:, :-1] = np.clip((targets[:, :-1] - middle) / half, -1.0, 1.0)
         return "joint_targets", targets.astype(np.float32)
@@ -223,8 +234,8 @@ def _record(env, skill, count, acting, seed, keep, report):
                 report("record", f"{attempts} episodes", kept, count, time.monotonic() - began)
             yield episode
         elif attempts >= _LEAST_ATTEMPTS and kept < _LEAST_SUCCESS * attempts:
-            raise _core.Error(f"record: {kept} of {attempts} episodes succeeded (try another policy, "
-                              "or keep='all')")
+            raise _core.Error(f"record: {kept} of {attempts} episodes succeeded (try another "
+                              "policy, or keep='all')")
     if report is not None:
         report("", "", 0, 0, 0.0)
     env.close()
@@ -332,8 +343,8 @@ def describe(env):
         env (SkillEnv or LongTaskEnv): with cameras or a render_mode.
 
     Returns:
-        dict: ``task`` (name), ``instructions`` (a sentence for each subtask), ``base`` (4, 4), world
-        from the robot's base, m, ``legend``, the names of the labels of segmentations.
+        dict: ``task`` (name), ``instructions`` (a sentence for each subtask), ``base`` (4, 4),
+        world from the robot's base, m, ``legend``, the names of the labels of segmentations.
 
     Raises:
         Error: for an environment without cameras.
@@ -369,8 +380,9 @@ class _Descriptions:
         links = [name.split("/", 1)[1] for name in legend.values() if "/" in name]
         for link in links if len(found) > 1 else []:
             word = re.compile(rf'"{re.escape(link)}(_joint)?"')
-            found = [task for task in found
-                     if word.search("\n".join(task["subtasks"][self._subtask or 0]["program"]))] or found
+            named = [task for task in found if word.search(
+                "\n".join(task["subtasks"][self._subtask or 0]["program"]))]
+            found = named or found
         return (found or self._tasks)[0]
 
 
@@ -380,13 +392,13 @@ def _parser():
         "with camera images, for imitation learning (docs/demonstrations.md).",
         formatter_class=argparse.ArgumentDefaultsHelpFormatter)
     add = parser.add_argument
-    add("--skill", required=True, help="such as open_drawer, or a long task such as apple_into_drawer")
+    add("--skill", required=True, help="such as open_drawer, or a long task: apple_into_drawer ...")
     add("--episodes", type=int, default=50, help="number of episodes to keep")
     add("--format", required=True, choices=list(FORMATS), help="of the data set")
     add("-o", "--output", required=True, help="folder (lerobot) or file (mcap, robomimic)")
     add("--cameras", default="front,wrist", help="front, wrist, both with a comma, or none")
     add("--image-size", type=int, default=128, help="pixels a side")
-    add("--look", choices=["none", "wide"], default="none", help="randomisation of colours and lights")
+    add("--look", choices=["none", "wide"], default="none", help="randomised look")
     add("--policy", choices=["expert", "shipped"], default="expert", help="what acts")
     add("--split", choices=["train", "unseen"], default="train", help="instances of the objects")
     add("--instances", type=int, default=None, help="number of instances; default: the skill's")
@@ -409,9 +421,9 @@ def main(arguments=None):
     try:
         need(module, extra)
         episodes = record(told.skill, told.episodes, policy=told.policy, cameras=cameras,
-                          image_size=told.image_size, look=None if told.look == "none" else told.look,
-                          seed=told.seed, keep=told.keep, progress=False if told.quiet else None,
-                          **settings)
+                          image_size=told.image_size,
+                          look=None if told.look == "none" else told.look, seed=told.seed,
+                          keep=told.keep, progress=False if told.quiet else None, **settings)
         report = write(told.output, episodes,
                        **({} if told.format == "mcap" else {"actions": told.actions}))
     except (_core.Error, OSError) as error:

@@ -1,4 +1,4 @@
-"""Loads LeRobot data sets with the package lerobot, and trains ACT on one. Nothing is downloaded."""
+"""Loads LeRobot data sets with the package lerobot, and trains ACT on one, without downloads."""
 
 import os
 
@@ -20,8 +20,8 @@ REPO = "simwright/drawers"
 @pytest.fixture(scope="module")
 def episodes():
     """Three successes and a failure."""
-    return list(demonstrations.record("open_drawer", 4, instances=4, image_size=64, seed=3, keep="all",
-                                      episode_seconds=4.0))
+    return list(demonstrations.record("open_drawer", 4, instances=4, image_size=64, seed=3,
+                                      keep="all", episode_seconds=4.0))
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +65,7 @@ def test_values_are_those_recorded(dataset, episodes):
         np.testing.assert_array_equal(column("observation.state")[:, 7],
                                       episode.openings[:-1].astype(np.float32))
         np.testing.assert_array_equal(column("observation.environment_state"), episode.states[:-1])
-        np.testing.assert_array_equal(column("action"), episode.commands.astype(np.float32))
+        np.testing.assert_array_equal(column("action"), episode.targets.astype(np.float32))
         np.testing.assert_array_equal(column("policy_action"), episode.actions)
         np.testing.assert_array_equal(column("next.reward").ravel(), episode.rewards)
         np.testing.assert_array_equal(column("next.done").ravel(), episode.dones)

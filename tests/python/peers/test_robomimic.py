@@ -23,8 +23,8 @@ LOW_DIM = ["robot0_joint_pos", "robot0_eef_pos", "robot0_eef_quat", "robot0_grip
 
 @pytest.fixture(scope="module")
 def episodes():
-    return list(demonstrations.record("open_drawer", 4, instances=4, image_size=32, seed=3, keep="all",
-                                      episode_seconds=4.0, images=["rgb", "depth"]))
+    return list(demonstrations.record("open_drawer", 4, instances=4, image_size=32, seed=3,
+                                      keep="all", episode_seconds=4.0, images=["rgb", "depth"]))
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +65,7 @@ def test_values(file, episodes):
                                            episode.tools[rows, :3, 3], atol=1e-6)
                 np.testing.assert_allclose(
                     np.linalg.norm(demo[f"{key}/robot0_eef_quat"], axis=1), 1.0, atol=1e-6)
-        masks = {name: [text.decode() for text in opened[f"mask/{name}"]] for name in opened["mask"]}
+        masks = {name: [text.decode() for text in names] for name, names in opened["mask"].items()}
         assert sorted(masks["train"] + masks["valid"]) == [f"demo_{i}" for i in range(4)]
         assert masks["success"] == [f"demo_{i}" for i in range(4) if episodes[i].success]
         assert masks["failure"] == [f"demo_{i}" for i in range(4) if not episodes[i].success]
@@ -73,8 +73,8 @@ def test_values(file, episodes):
 
 def test_robomimics_tool_reads_the_file(file):
     script = Path(robomimic.__path__[0]) / "scripts" / "get_dataset_info.py"
-    told = subprocess.run([sys.executable, str(script), "--dataset", str(file)], capture_output=True,
-                          text=True)
+    told = subprocess.run([sys.executable, str(script), "--dataset", str(file)], text=True,
+                          capture_output=True)
     assert told.returncode == 0, told.stderr
     assert "simwright/OpenDrawer-v0" in told.stdout and "front_image" in told.stdout
 
@@ -126,7 +126,8 @@ def train(file, folder, low_dim, rgb):
         train_utils.run_epoch = run_epoch
     assert list(Path(folder).rglob("*.pth"))
     trained = [loss for validated, loss in losses if not validated]
-    assert len(trained) == 2 and len(losses) == 4 and np.isfinite([loss for _, loss in losses]).all()
+    assert len(trained) == 2 and len(losses) == 4
+    assert np.isfinite([loss for _, loss in losses]).all()
     return trained
 
 
