@@ -1,9 +1,11 @@
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nanobind/eigen/dense.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -19,6 +21,7 @@ namespace simwright::python {
 namespace {
 
 using nb::literals::operator""_a;
+const Eigen::Vector4f kPlain(0.75f, 0.75f, 0.75f, 1.0f);
 static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
 static_assert(sizeof(Eigen::Vector3i) == 3 * sizeof(std::int32_t));
 static_assert(sizeof(Eigen::Vector2f) == 2 * sizeof(float));
@@ -104,14 +107,14 @@ void BindTexturedMesh(nb::module_& module) {
       .def(
           "__init__",
           [](core::TexturedMesh* self, const core::TriangleMesh& mesh,
-             const Eigen::Vector4f& color) {
+             const std::optional<Eigen::Vector4f>& color) {
             new (self) core::TexturedMesh();
             self->mesh = mesh;
             self->triangle_material.assign(mesh.triangles.size(), 0);
-            self->materials.push_back({"plain", color, -1});
+            self->materials.push_back({"plain", color.value_or(kPlain), -1});
           },
-          "mesh"_a, "color"_a = Eigen::Vector4f(0.75f, 0.75f, 0.75f, 1.0f),
-          "A mesh of one colour (4): RGBA in [0, 1], sRGB.")
+          "mesh"_a, "color"_a = nb::none(),
+          "A mesh of one colour (4): RGBA in [0, 1], sRGB; None: light grey.")
       .def_prop_ro(
           "mesh",
           [](const core::TexturedMesh& mesh) -> const core::TriangleMesh& { return mesh.mesh; },

@@ -5,12 +5,15 @@
 set -euo pipefail
 python=$1 build=$2 source=$3
 work=$build/pip_test
-rm -rf "$work"
+rm -rf "$work" "$source/build-pip"
 mkdir -p "$work"
 /usr/bin/python3 -m venv "$work/venv"
-# A build folder of its own: the other tests use build/. ccache has the objects.
+# A build folder of its own, since the other tests use build/. ccache has the objects where flags and
+# paths relative to the source are the same.
+strict=$(sed -n 's/^SIMWRIGHT_WERROR:BOOL=//p' "$build/CMakeCache.txt")
 "$work/venv/bin/pip" install --quiet --disable-pip-version-check --no-deps \
-  --config-settings=build-dir="$work/build" "$source"
+  --config-settings=build-dir="$source/build-pip" \
+  --config-settings=cmake.define.SIMWRIGHT_WERROR="$strict" "$source"
 "$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))' \
   >"$work/venv/lib/$("$python" -c 'import sys; print("python%d.%d" % sys.version_info[:2])')/site-packages/tests.pth"
 cd "$work"
@@ -33,11 +36,10 @@ assert os.path.exists(os.path.join(folder, "_core.pyi")) and os.path.exists(os.p
 assert "def act(" in open(os.path.join(folder, "_core.pyi")).read()
 print("installed", simwright.__version__)
 CHECK
-rm -rf "$work/build"
 # A module for another Python says so.
 mv "$work"/venv/lib/python*/site-packages/simwright/_core.cpython-3*.so \
   "$(ls -d "$work"/venv/lib/python*/site-packages/simwright)/_core.cpython-27-x86_64-linux-gnu.so"
 if "$work/venv/bin/python" -c 'import simwright' 2>message.txt; then exit 1; fi
 tail -1 message.txt
 tail -1 message.txt | grep -q 'ImportError: simwright: _core.cpython-27.* is for another Python than this one'
-rm -rf "$work"
+rm -rf "$work" "$source/build-pip"
