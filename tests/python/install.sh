@@ -5,14 +5,21 @@
 set -euo pipefail
 python=$1 build=$2 source=$3
 work=$build/pip_test
-rm -rf "$work" "$source/build-pip"
+rm -rf "$work"
 mkdir -p "$work"
 /usr/bin/python3 -m venv "$work/venv"
-# A build folder of its own, since the other tests use build/. ccache has the objects where flags and
-# paths relative to the source are the same.
+# In the build folder, as for a user who has built before: only the bindings are compiled again, for
+# the nanobind of pip's own environment. No other test runs meanwhile.
+flags=$(grep -E '^SIMWRIGHT_(WERROR|TESTS|BENCH):' "$build/CMakeCache.txt" | sed 's/^/-D/')
+restore() {
+  # shellcheck disable=SC2086
+  cmake -S "$source" -B "$build" $flags -DSIMWRIGHT_PYTHON=ON -DPython_EXECUTABLE="$python" \
+    -Dnanobind_DIR= >/dev/null
+  cmake --build "$build" --target simwright_python simwright_python_stub >/dev/null
+}
+trap restore EXIT
 strict=$(sed -n 's/^SIMWRIGHT_WERROR:BOOL=//p' "$build/CMakeCache.txt")
 "$work/venv/bin/pip" install --quiet --disable-pip-version-check --no-deps \
-  --config-settings=build-dir="$source/build-pip" \
   --config-settings=cmake.define.SIMWRIGHT_WERROR="$strict" "$source"
 "$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))' \
   >"$work/venv/lib/$("$python" -c 'import sys; print("python%d.%d" % sys.version_info[:2])')/site-packages/tests.pth"
@@ -42,4 +49,4 @@ mv "$work"/venv/lib/python*/site-packages/simwright/_core.cpython-3*.so \
 if "$work/venv/bin/python" -c 'import simwright' 2>message.txt; then exit 1; fi
 tail -1 message.txt
 tail -1 message.txt | grep -q 'ImportError: simwright: _core.cpython-27.* is for another Python than this one'
-rm -rf "$work" "$source/build-pip"
+rm -rf "$work"

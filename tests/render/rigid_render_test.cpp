@@ -306,7 +306,8 @@ TEST(RigidRender, BadInputIsRefused) {
   RigidScene scene;
   EXPECT_THROW(scene.Add(nullptr, 0), core::Error);
   EXPECT_THROW(scene.Add(Prepared(PaintedBox({1, 1, 1})), -1), core::Error);
-  EXPECT_THROW(RigidMesh(core::TexturedMesh()), core::Error);
+  const core::TexturedMesh empty;
+  EXPECT_THROW(RigidMesh{empty}, core::Error);
   core::Camera camera = SideView(10, 10);
   camera.width = 0;
   EXPECT_THROW(RenderRigid(scene, camera, {}), core::Error);
