@@ -10,17 +10,21 @@ mkdir -p "$work"
 /usr/bin/python3 -m venv "$work/venv"
 # In the build folder, as for a user who has built before: only the bindings are compiled again, for
 # the nanobind of pip's own environment. No other test runs meanwhile.
-flags=$(grep -E '^SIMWRIGHT_(WERROR|TESTS|BENCH):' "$build/CMakeCache.txt" | sed 's/^/-D/')
+# The settings of the build folder: with others, CMake would delete the test programs.
+defines=()
+for name in WERROR TESTS BENCH; do
+  defines+=("SIMWRIGHT_$name=$(sed -n "s/^SIMWRIGHT_$name:BOOL=//p" "$build/CMakeCache.txt")")
+done
 restore() {
-  # shellcheck disable=SC2086
-  cmake -S "$source" -B "$build" $flags -DSIMWRIGHT_PYTHON=ON -DPython_EXECUTABLE="$python" \
-    -Dnanobind_DIR= >/dev/null
+  rm -f "$build/.skbuild-info.json"
+  cmake -S "$source" -B "$build" "${defines[@]/#/-D}" -DSIMWRIGHT_PYTHON=ON \
+    -DPython_EXECUTABLE="$python" -Dnanobind_DIR= >/dev/null
   cmake --build "$build" --target simwright_python simwright_python_stub >/dev/null
 }
 trap restore EXIT
-strict=$(sed -n 's/^SIMWRIGHT_WERROR:BOOL=//p' "$build/CMakeCache.txt")
+rm -f "$build/.skbuild-info.json"  # with it, scikit-build-core would start from an empty cache
 "$work/venv/bin/pip" install --quiet --disable-pip-version-check --no-deps \
-  --config-settings=cmake.define.SIMWRIGHT_WERROR="$strict" "$source"
+  "${defines[@]/#/--config-settings=cmake.define.}" "$source"
 "$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))' \
   >"$work/venv/lib/$("$python" -c 'import sys; print("python%d.%d" % sys.version_info[:2])')/site-packages/tests.pth"
 cd "$work"
