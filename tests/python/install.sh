@@ -16,6 +16,7 @@ for name in WERROR TESTS BENCH; do
   defines+=("SIMWRIGHT_$name=$(sed -n "s/^SIMWRIGHT_$name:BOOL=//p" "$build/CMakeCache.txt")")
 done
 restore() {
+  cd "$source"
   rm -f "$build/.skbuild-info.json"
   cmake -S "$source" -B "$build" "${defines[@]/#/-D}" -DSIMWRIGHT_PYTHON=ON \
     -DPython_EXECUTABLE="$python" -Dnanobind_DIR= >/dev/null
@@ -53,4 +54,5 @@ mv "$work"/venv/lib/python*/site-packages/simwright/_core.cpython-3*.so \
 if "$work/venv/bin/python" -c 'import simwright' 2>message.txt; then exit 1; fi
 tail -1 message.txt
 tail -1 message.txt | grep -q 'ImportError: simwright: _core.cpython-27.* is for another Python than this one'
+cd "$source"
 rm -rf "$work"
