@@ -18,6 +18,12 @@ void RequireImage(const core::Camera& camera, const RigidRenderOptions& options)
   }
 }
 
+// Returns the position within a pixel of sample N/2 of N.
+float MiddleShift(int samples) {
+  const int middle = samples / 2;
+  return (static_cast<float>(middle) + 0.5f) / static_cast<float>(samples);
+}
+
 // Draws the tiles of one image.
 class TileRow {
  public:
@@ -29,8 +35,7 @@ class TileRow {
         buffers_(buffers),
         samples_(buffers.rgb != nullptr ? options.samples_per_side : 1),
         // Without colours the representative ray alone is traced, where it is with them.
-        shift_((static_cast<float>(options.samples_per_side / 2) + 0.5f) /
-               static_cast<float>(options.samples_per_side)) {}
+        shift_(MiddleShift(options.samples_per_side)) {}
 
   void Draw(int row) const {
     for (int x = 0; x < width_; x += kTileSide) DrawTile(x, row * kTileSide);
