@@ -64,8 +64,8 @@ def test_ppo_in_one_file_learns():
     sys.path.insert(0, str(SOURCE / "examples" / "python"))
     import ppo
 
-    flags = ppo.arguments().parse_args(["--instances", "4", "--steps", "120000"])
+    flags = ppo.arguments().parse_args(["--instances", "4", "--steps", "200000"])
     agent, rates = ppo.train(flags, report=lambda line: None)
-    early, late = np.mean(rates[2:8]), np.mean(rates[-4:])
+    early, late = np.mean(rates[2:12]), np.mean(rates[-10:])
     assert late > early + 0.1, (early, late, rates)
     assert all(bool(parameter.isfinite().all()) for parameter in agent.parameters())
