@@ -154,7 +154,7 @@ class ExportedTask:
         q, v = self.data.qpos[self.q_index], self.data.qvel[self.v_index]
         tool_in_frame, frame_in_base = frame.inverse() @ tool, self.base.inverse() @ frame
         axes = lambda R: [*R[:, 1], *R[:, 2]]
-        ratio, widest = self.robot["opening_ratio"], self.robot["open"]
+        widest = self.robot["open"]
         opening = lambda leader: 2.0 * leader / widest - 1.0
         touched, grasped = self.finger_forces()
         row = [*(2.0 * (q - 0.5 * (self.lower + self.upper)) / (self.upper - self.lower))]

@@ -17,149 +17,14 @@ from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 
 from . import _core
-from . import cameras as _cameras
-from ._cells import cell_tasks, long_task
+from ._cells import long_task
 from ._progress import reporter
+from ._worlds import Worlds, fault_of, numbers, task_file
 
 __all__ = ["LongTaskEnv", "SkillEnv", "SkillVectorEnv", "register_envs"]
 
-# robosuite's OSC_POSE moves by at most 0.05 m and 0.5 rad a step; 1 closes its gripper.
-_OSC_SETTINGS = {"reach": 0.2, "turn": 2.0, "delta_share": 0.25}
-# The camera of render(): behind and to the right of the robot, in the frame of its base, m.
-_RENDER_POSITION = (-0.35, -1.75, 1.45)
-_RENDER_TARGET = (0.5, 0.1, 0.3)
-_ACTION_SPACES = ("focus", "guided", "delta", "osc_delta", "absolute", "joints", "joint_targets")
 
-
-def _settings(action_space, robot, episode_seconds):
-    if action_space not in _ACTION_SPACES:
-        raise _core.Error(f"action_space: is '{action_space}' (give one of {', '.join(_ACTION_SPACES)})")
-    settings = _core.TaskSettings()
-    settings.robot = robot
-    settings.action_space = "delta" if action_space == "osc_delta" else action_space
-    settings.episode_seconds = episode_seconds
-    if action_space == "osc_delta":
-        for name, value in _OSC_SETTINGS.items():
-            setattr(settings, name, value)
-    return settings
-
-
-def _task_file(cell, tasks, robot, split, instances, progress):
-    """Returns the task file and the robot of a cell, or of a task file."""
-    if (cell is None) == (tasks is None):
-        raise _core.Error("environment: needs a cell, or a tasks.json (give one of cell=, tasks=)")
-    if tasks is not None:
-        return str(tasks), robot or "panda"
-    known = next((entry for entry in _core.cells() if entry["name"] == cell), None)
-    file = cell_tasks(cell, split, instances, reporter(progress))
-    return str(file), robot or known["robot"]
-
-
-def _numbers(actions, shape):
-    """Returns actions as float32; raises Error for another shape or type."""
-    try:
-        array = np.asarray(actions)
-        if array.dtype.kind not in "fiub":
-            raise TypeError(f"has the type {array.dtype}")
-        array = np.ascontiguousarray(array, dtype=np.float32)
-    except (TypeError, ValueError) as error:
-        raise _core.Error(f"action: is not an array of real numbers ({error})") from None
-    if array.shape != shape:
-        raise _core.Error(f"action: has the shape {array.shape} (give {shape})")
-    return array
-
-
-def _fault(action, failed_physics, environment=None):
-    """Returns why an episode was ended."""
-    where = "" if environment is None else f" of environment {environment}"
-    if failed_physics:
-        return f"the physics{where} failed"
-    bad = ", ".join(str(index) for index in np.flatnonzero(~np.isfinite(action)))
-    return f"the action{where} is not finite in {bad}"
-
-
-class _Worlds:
-    """What the environments share: their images, and that they can be closed once."""
-
-    _open = True
-    _eyes = None  # EpisodeCameras
-
-    def _prepare(self, file, robot, patterns, action_space, subtask, episode_seconds):
-        """Reads the tasks of a file; `subtask` is None where all are executed."""
-        patterns = [patterns] if isinstance(patterns, str) else list(patterns)
-        settings = _settings(action_space, robot, episode_seconds)
-        self.task = _core.PreparedTask(file, patterns, settings)
-        self.tasks_file, self.robot, self.action_space_name = file, robot, action_space
-        self.subtask_index = subtask
-        self._flip_gripper = action_space == "osc_delta"
-
-    def _require_open(self):
-        if not self._open:
-            raise _core.Error("the environment: is closed (make a new one)")
-
-    def _choose_cameras(self, cameras, image_size, images, look, render_mode, render_size):
-        """Reads the arguments about cameras; returns the spaces of the images by key."""
-        if render_mode not in (None, "rgb_array"):
-            raise _core.Error(f"render_mode: is {render_mode!r} (give None or 'rgb_array')")
-        self.render_mode = render_mode
-        self._kinds = [images] if isinstance(images, str) else list(images)
-        specs = _cameras.chosen(cameras, image_size)
-        self._seen = [spec.name for spec in specs]
-        if "render" in self._seen or "state" in self._seen:
-            raise _core.Error("cameras: 'render' and 'state' are taken (choose another name)")
-        self._specs = list(specs)
-        if render_mode is not None:
-            width, height = render_size
-            self._specs.append(_cameras.camera("render", position=_RENDER_POSITION,
-                                               target=_RENDER_TARGET, mount="robot", width=width,
-                                               height=height))
-        self._look = _cameras.look(look)
-        shapes = {"rgb": (3,), "normal": (3,)}
-        limits = {"rgb": (0, 255, np.uint8), "depth": (0.0, np.inf, np.float32),
-                  "segmentation": (-1, np.iinfo(np.int32).max, np.int32),
-                  "normal": (-1.0, 1.0, np.float32)}
-        found = {}
-        for spec in specs:
-            for kind in self._kinds:
-                if kind not in limits:
-                    raise _core.Error(f"images: there is no '{kind}' "
-                                      f"(give {', '.join(_cameras.KINDS)})")
-                low, high, dtype = limits[kind]
-                shape = (spec.height, spec.width) + shapes.get(kind, ())
-                found[self._key(spec.name, kind)] = spaces.Box(low, high, shape, dtype)
-        return found
-
-    @staticmethod
-    def _key(camera, kind):
-        return camera if kind == "rgb" else f"{camera}_{kind}"
-
-    def _make_cameras(self, subtask, evaluated):
-        """Returns the cameras of a subtask, or None if there are none."""
-        if not self._specs:
-            return None
-        return _core.EpisodeCameras(self.task, subtask, evaluated, self._specs, self._look, 1)
-
-    def _space(self, state, images):
-        return spaces.Dict({"state": state, **images}) if images else state
-
-    def _with_images(self, state, images):
-        """Returns the observation of a state and the images by camera and kind."""
-        if not self._seen:
-            return state
-        observation = {"state": state}
-        for camera, kinds in images.items():
-            for kind, pixels in kinds.items():
-                observation[self._key(camera, kind)] = pixels
-        return observation
-
-    def _require_render(self):
-        self._require_open()
-        if self.render_mode is None:
-            raise _core.Error("render: the environment has no render_mode (make it with "
-                              "render_mode='rgb_array')")
-
-
-class SkillEnv(_Worlds, gymnasium.Env):
+class SkillEnv(Worlds, gymnasium.Env):
     """One subtask with a Franka Panda, in Bullet.
 
     Args:
@@ -194,7 +59,7 @@ class SkillEnv(_Worlds, gymnasium.Env):
                  action_space="focus", robot=None, easy_starts=False, episode_seconds=None,
                  cameras=(), image_size=128, images=("rgb",), look=None, render_mode=None,
                  render_size=(480, 360), progress=None):
-        file, robot = _task_file(cell, tasks, robot, split, instances, progress)
+        file, robot = task_file(cell, tasks, robot, split, instances, progress)
         self._prepare(file, robot, "*" if tasks is None else task, action_space, int(subtask),
                       episode_seconds)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
@@ -205,19 +70,13 @@ class SkillEnv(_Worlds, gymnasium.Env):
         self.observation_space = self._space(
             spaces.Box(-np.inf, np.inf, (self.task.observation_size(subtask),), np.float32), pictures)
         self.action_space = spaces.Box(-1.0, 1.0, (self.task.action_size(subtask),), np.float32)
-        self._seed = None
-        self._index = 0
         self._running = False
 
     def reset(self, *, seed=None, options=None):
         """Starts the next episode of the seed; a new seed starts with its first one."""
         self._require_open()
         super().reset(seed=seed)
-        if seed is not None or self._seed is None:
-            self._seed = int(self.np_random.integers(2**62)) if seed is None else int(seed)
-            self._index = 0
-        else:
-            self._index += 1
+        self._number_episode(seed)
         observation = self._episode.begin(self._seed, self._index)
         self._running = True
         return self._observation(observation), {"success": False, "is_success": False}
@@ -232,13 +91,11 @@ class SkillEnv(_Worlds, gymnasium.Env):
         self._require_open()
         if not self._running:
             raise _core.Error("the episode: has ended (call reset())")
-        action = _numbers(action, self.action_space.shape)
-        if self._flip_gripper:
-            action = np.concatenate([action[:-1], -action[-1:]])
+        action = self._sent(numbers(action, self.action_space.shape))
         observation, reward, held, truncated, success, invalid, failed = self._episode.step(action)
         info = {"success": success, "is_success": held}
         if invalid or failed:
-            info["fault"] = _fault(action, failed)
+            info["fault"] = fault_of(action, failed)
             held, truncated = invalid, not invalid
         self._running = not (held or truncated)
         return self._observation(observation), float(reward), held, truncated, info
@@ -269,7 +126,7 @@ class SkillEnv(_Worlds, gymnasium.Env):
         self._open = False
 
 
-class SkillVectorEnv(_Worlds, gymnasium.vector.VectorEnv):
+class SkillVectorEnv(Worlds, gymnasium.vector.VectorEnv):
     """N environments of a subtask, stepped in C++ on all threads.
 
     An episode that ends restarts in the same step (``AutoresetMode.SAME_STEP``): ``final_obs`` in
@@ -284,7 +141,7 @@ class SkillVectorEnv(_Worlds, gymnasium.vector.VectorEnv):
                  episode_seconds=None, cameras=(), image_size=128, images=("rgb",), look=None,
                  render_mode=None, render_size=(480, 360), progress=None):
         self.num_envs = int(num_envs)
-        file, robot = _task_file(cell, tasks, robot, split, instances, progress)
+        file, robot = task_file(cell, tasks, robot, split, instances, progress)
         self._prepare(file, robot, "*" if tasks is None else task, action_space, int(subtask),
                       episode_seconds)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
@@ -328,9 +185,7 @@ class SkillVectorEnv(_Worlds, gymnasium.vector.VectorEnv):
     def step(self, actions):
         """Executes actions (N, A), clamped to [-1, 1]."""
         self._require_open()
-        actions = _numbers(actions, self.action_space.shape)
-        if self._flip_gripper:
-            actions = np.concatenate([actions[:, :-1], -actions[:, -1:]], axis=1)
+        actions = self._sent(numbers(actions, self.action_space.shape))
         (observations, rewards, terminated, truncated, success, last, invalid,
          failed) = self._episodes.step(actions)
         infos = self._info(success)
@@ -349,7 +204,7 @@ class SkillVectorEnv(_Worlds, gymnasium.vector.VectorEnv):
             if faults.any():
                 text = np.full(self.num_envs, None, dtype=object)
                 for index in np.flatnonzero(faults):
-                    text[index] = _fault(actions[index], failed[index], index)
+                    text[index] = fault_of(actions[index], failed[index], index)
                 final_info["fault"], final_info["_fault"] = text, faults
             infos["final_info"], infos["_final_info"] = final_info, ended.copy()
         return self._observation(observations), rewards, terminated, truncated, infos
@@ -368,7 +223,7 @@ class SkillVectorEnv(_Worlds, gymnasium.vector.VectorEnv):
         self._open = False
 
 
-class LongTaskEnv(_Worlds, gymnasium.Env):
+class LongTaskEnv(Worlds, gymnasium.Env):
     """A task of several subtasks, one after the other.
 
     Observations: the index of the current subtask as a one-hot vector, then its observation, padded
@@ -401,8 +256,6 @@ class LongTaskEnv(_Worlds, gymnasium.Env):
             spaces.Box(-np.inf, np.inf, (count + self._longest,), np.float32), pictures)
         self.action_space = spaces.Box(-1.0, 1.0, (self.task.action_size(0),), np.float32)
         self._subtask = 0
-        self._seed = None
-        self._index = 0
         self._running = False
 
     def _observation(self, part):
@@ -430,11 +283,7 @@ class LongTaskEnv(_Worlds, gymnasium.Env):
         """Starts the next episode of the seed; a new seed starts with its first one."""
         self._require_open()
         super().reset(seed=seed)
-        if seed is not None or self._seed is None:
-            self._seed = int(self.np_random.integers(2**62)) if seed is None else int(seed)
-            self._index = 0
-        else:
-            self._index += 1
+        self._number_episode(seed)
         self._subtask = 0
         self._running = True
         part = self._episodes[0].begin(self._seed, self._index)
@@ -445,15 +294,13 @@ class LongTaskEnv(_Worlds, gymnasium.Env):
         self._require_open()
         if not self._running:
             raise _core.Error("the episode: has ended (call reset())")
-        action = _numbers(action, self.action_space.shape)
-        if self._flip_gripper:
-            action = np.concatenate([action[:-1], -action[-1:]])
+        action = self._sent(numbers(action, self.action_space.shape))
         episode = self._episodes[self._subtask]
         part, reward, held, truncated, success, invalid, failed = episode.step(action)
         info = {"success": success, "is_success": False, "subtask": self._subtask}
         terminated = False
         if invalid or failed:
-            info["fault"] = _fault(action, failed)
+            info["fault"] = fault_of(action, failed)
             terminated, truncated = invalid, not invalid
         elif held and self._subtask + 1 < len(self._episodes):
             self._subtask += 1

@@ -1,7 +1,6 @@
 """Reward programs: a restricted Python, compiled and run over batches of environments."""
 
 from . import _core
-from ._core import RewardProgram
 
 __all__ = ["Program", "compile"]
 

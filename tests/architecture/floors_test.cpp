@@ -166,7 +166,7 @@ TEST(Architecture, NoModuleIsTooLarge) {
 
 TEST(Architecture, LargeLibrariesStayOutOfHeaders) {
   for (const Include& include : AllIncludes()) {
-    // What cli and python hand on is made of the libraries that they are for.
+    // The headers of cli and python declare types of CLI11 and nanobind.
     const bool top = include.module == "cli" || include.module == "python";
     if (!include.file.ends_with(".h") || top) continue;
     // OpenCV's matrices are asset_lift's own currency between its files.

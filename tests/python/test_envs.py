@@ -74,7 +74,7 @@ def test_osc_delta_moves_as_robosuite_does():
             for _ in range(10):
                 env.step(action)
             shift = tool(env)[:3, 3] - start[:3, 3]
-            # As in robosuite, a step starts from where the arm is: it lags behind its commands.
+            # Each step starts from the pose of the arm, as in robosuite: the arm lags behind.
             assert 0.5 * 0.1 < shift[axis] * sign < 0.1
             assert np.abs(np.delete(shift, axis)).max() < 0.03
     env.reset(seed=5)
