@@ -1,6 +1,6 @@
 """Runs an exported policy in MuJoCo, in the exported world of a task, and prints the outcome.
 
-    simwright export tasks.json --task open_drawer_unit_1_drawer_1 --world --format mjcf -o world
+    simwright export tasks.json --task open_all_of_drawer_unit_1 --world --format mjcf -o world
     simwright export --skill open_drawer --format onnx -o open_drawer.onnx
     pip install mujoco onnxruntime numpy
     python3 policy_in_mujoco.py open_drawer.onnx world...
