@@ -10,6 +10,12 @@ act on: the outline of the target in the first front image, as a click on a segm
 (--goal outline), or the number in the instruction (--goal number). It predicts a chunk of targets
 of the joints relative to the present ones, so that neither inputs nor actions know the object's pose.
 
+While recording, the expert is pushed off its way now and then, and the network learns how it
+returns, but not the pushes: without them the network's own errors lead to states that no
+demonstration shows (Laskey et al., "DART", CoRL 2017). While training, a linear layer also estimates
+the simulated state from the network's features, which makes the features show where the object is;
+the state is not used afterwards.
+
 Each stage is resumed where it stopped: recording by blocks of 20 demonstrations, training by epoch,
 measuring by episode. --minutes bounds the training.
 """
@@ -57,6 +63,30 @@ def number_of(instruction):
     return hot
 
 
+class PushedExpert:
+    """The scripted expert; a random action replaces its own in bursts of 0.1 to 0.4 s."""
+
+    def __init__(self, share, seed):
+        self._share = share
+        self._rng = np.random.default_rng(seed)
+        self._left = 0
+        self.pushed = []  # by step of the present episode
+
+    def __call__(self, env):
+        action = env.expert_action()
+        if env.state()["seconds"] == 0.0:
+            self.pushed, self._left = [], 0
+        if self._left == 0 and self._rng.random() < self._share:
+            self._left = int(self._rng.integers(2, 9))
+            direction = self._rng.normal(size=len(action) - 1)
+            self._push = self._rng.uniform(0.2, 1.0) * direction / np.abs(direction).max()
+        self.pushed.append(self._left > 0)
+        if self._left > 0:
+            self._left -= 1
+            action[:-1] = self._push
+        return action
+
+
 def record(told, folder):
     """Records the demonstrations that are missing; returns the paths of all blocks."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -69,9 +99,10 @@ def record(told, folder):
         began = time.monotonic()
         count = min(BLOCK, told.demos - block * BLOCK)
         rows = {key: [] for key in ("front", "wrist", "bodies", "targets", "joints", "lengths",
-                                    "outlines", "numbers")}
+                                    "outlines", "numbers", "states", "pushed")}
+        expert = PushedExpert(told.pushes, [told.seed, block])
         for episode in demonstrations.record(
-                told.skill, count, image_size=told.image_size, look=told.look,
+                told.skill, count, policy=expert, image_size=told.image_size, look=told.look,
                 images=["rgb", "segmentation"], seed=told.seed + block, progress=False,
                 **({"instances": told.instances} if told.instances else {})):
             for name in CAMERAS:
@@ -80,6 +111,8 @@ def record(told, folder):
                 episode.joints[:-1], episode.openings[:-1], episode.tools[:-1])]))
             rows["targets"].append(episode.targets.astype(np.float32))
             rows["joints"].append(episode.joints[:-1].astype(np.float32))
+            rows["states"].append(episode.states[:-1])
+            rows["pushed"].append(np.array(expert.pushed))
             rows["lengths"].append([len(episode)])
             first = episode.images["front_segmentation"][:1]
             rows["outlines"].append(outline(first, episode.legend))
@@ -107,31 +140,41 @@ class Demonstrations:
         steps = np.minimum(steps, ends[self._episode][:, None] - 1)
         targets = self._rows["targets"][steps]
         targets[..., :7] -= self._rows["joints"][:, None]
-        self._goal = told.goal
+        # A step's target is the set point one step later. Beyond the end there is no push.
+        pushed = np.append(self._rows["pushed"], False)
+        later = np.minimum(steps + 1, ends[self._episode][:, None] - 1)
+        self._known = torch.tensor(~(pushed[steps] | pushed[later]), dtype=torch.float32)
+        states = self._rows["states"]
+        self._states = torch.tensor((states - states.mean(axis=0)) / (states.std(axis=0) + 1e-3))
+        self.state_size = states.shape[1]
         self.action_scale = torch.tensor(targets.reshape(-1, 8).std(axis=0) + 1e-3)
         self._targets = torch.tensor(targets)
         self.body_mean = torch.tensor(self._rows["bodies"].mean(axis=0))
         self.body_scale = torch.tensor(self._rows["bodies"].std(axis=0) + 1e-3)
 
     def batch(self, frames):
+        """Returns the inputs, the targets (N, chunk, 8), which of them are known (N, chunk), and the
+        standardised states (N, O)."""
         episodes = self._episode[frames]
         images = [torch.from_numpy(self._rows[name][frames]) for name in CAMERAS]
         return (images, torch.from_numpy(self._rows["outlines"][episodes]),
                 torch.from_numpy(self._rows["bodies"][frames]),
-                torch.from_numpy(self._rows["numbers"][episodes])), self._targets[frames]
+                torch.from_numpy(self._rows["numbers"][episodes])), self._targets[frames], \
+            self._known[frames], self._states[frames]
 
 
 class VisualPolicy(nn.Module):
     """A convolutional network for each camera, and a multilayer perceptron over all inputs."""
 
-    def __init__(self, chunk, goal):
+    def __init__(self, chunk, goal, state_size):
         super().__init__()
         self.chunk, self.goal = chunk, goal
         self.eyes = nn.ModuleList(self._eye(3 + (goal == "outline" and name == "front"))
                                   for name in CAMERAS)
         size = 2 * 2 * 64 + 17 + (NUMBERS if goal == "number" else 0)
-        self.head = nn.Sequential(nn.Linear(size, 512), nn.ReLU(), nn.Linear(512, 512), nn.ReLU(),
-                                  nn.Linear(512, 8 * chunk))
+        self.trunk = nn.Sequential(nn.Linear(size, 512), nn.ReLU(), nn.Linear(512, 512), nn.ReLU())
+        self.head = nn.Linear(512, 8 * chunk)
+        self.state = nn.Linear(512, state_size)
         for name, length in (("body_mean", 17), ("body_scale", 17), ("action_scale", 8)):
             self.register_buffer(name, torch.ones(length))
 
@@ -153,8 +196,9 @@ class VisualPolicy(nn.Module):
         return torch.cat([(weights.sum(3) * rows).sum(2), (weights.sum(2) * columns).sum(2)], dim=1)
 
     def forward(self, images, outlines, bodies, numbers, shift=0):
-        """Returns a chunk of actions (N, chunk, 8): joints relative to the present ones, rad, and
-        the gripper's command. ``shift``: pixels of random translation, while training."""
+        """Returns a chunk of actions (N, chunk, 8), joints relative to the present ones, rad, and
+        the gripper's command, and the estimated standardised state (N, O). ``shift``: pixels of
+        random translation, while training."""
         parts = [(bodies - self.body_mean) / self.body_scale]
         for name, image, eye in zip(CAMERAS, images, self.eyes):
             pixels = image.permute(0, 3, 1, 2).float() / 255 - 0.5
@@ -168,14 +212,15 @@ class VisualPolicy(nn.Module):
             parts.append(self._points(eye(pixels)))
         if self.goal == "number":
             parts.append(numbers)
-        actions = self.head(torch.cat(parts, dim=1)).view(-1, self.chunk, 8)
-        return actions * self.action_scale
+        features = self.trunk(torch.cat(parts, dim=1))
+        actions = self.head(features).view(-1, self.chunk, 8)
+        return actions * self.action_scale, self.state(features)
 
 
 def train(told, data, path):
     """Trains until the epochs or minutes are used; continues from a checkpoint at `path`."""
     torch.manual_seed(told.seed)
-    policy = VisualPolicy(told.chunk, told.goal)
+    policy = VisualPolicy(told.chunk, told.goal, data.state_size)
     for name in ("body_mean", "body_scale", "action_scale"):
         getattr(policy, name).copy_(getattr(data, name))
     optimizer = torch.optim.AdamW(policy.parameters(), lr=1e-3, weight_decay=1e-4)
@@ -198,19 +243,22 @@ def train(told, data, path):
         order = np.random.default_rng([told.seed, epoch]).permutation(data.count)
         losses = []
         for start in range(0, data.count, told.batch):
-            inputs, targets = data.batch(order[start:start + told.batch])
-            predicted = policy(*inputs, shift=max(1, told.image_size // 16))
-            loss = ((predicted - targets).abs() / policy.action_scale).mean()
+            inputs, targets, known, states = data.batch(order[start:start + told.batch])
+            predicted, estimated = policy(*inputs, shift=told.shift)
+            errors = ((predicted - targets).abs() / policy.action_scale).mean(dim=2)
+            loss = (errors * known).sum() / known.sum()
+            state_loss = (estimated - states).abs().mean()
             optimizer.zero_grad()
-            loss.backward()
+            (loss + told.state_weight * state_loss).backward()
             optimizer.step()
-            losses.append(loss.item())
+            losses.append([loss.item(), state_loss.item()])
         state = {"epoch": epoch + 1, "seconds": time.monotonic() - began}
         partial = path.with_suffix(".partial")
         torch.save({"policy": policy.state_dict(), "optimizer": optimizer.state_dict(),
                     "state": state}, partial)
         partial.replace(path)
-        print(f"epoch {epoch + 1} of {told.epochs}: loss {np.mean(losses):.4f}, "
+        loss, state_loss = np.mean(losses, axis=0)
+        print(f"epoch {epoch + 1} of {told.epochs}: loss {loss:.4f}, of the state {state_loss:.4f}, "
               f"{state['seconds'] / 60:.1f} min", flush=True)
     return policy.eval(), state
 
@@ -241,7 +289,7 @@ def run(env, observation, policy, execute):
     while True:
         inputs, joints = sight(observation)
         with torch.inference_mode():
-            chunk = policy(*inputs)[0, :execute].double().numpy()
+            chunk = policy(*inputs)[0][0, :execute].double().numpy()
         for command in chunk:
             targets = (2 * (joints + command[:7]) - LOWER - UPPER) / (UPPER - LOWER)
             action = np.clip(np.append(targets, command[7]), -1, 1).astype(np.float32)
@@ -277,6 +325,9 @@ def main():
     add("--image-size", type=int, default=64, help="pixels a side")
     add("--look", choices=["wide"], default=None, help="randomises looks")
     add("--goal", choices=["outline", "number"], default="outline", help="what to act on")
+    add("--pushes", type=float, default=0.02, help="probability that a push starts at a step")
+    add("--state-weight", type=float, default=0.5, help="of the estimated state in the loss")
+    add("--shift", type=int, default=2, help="pixels by which images are shifted in training, at most")
     add("--chunk", type=int, default=8, help="actions predicted at once, 0.05 s each")
     add("--execute", type=int, default=4, help="of them that are executed")
     add("--epochs", type=int, default=100, help="at most")

@@ -155,8 +155,9 @@ def record(skill=None, count=50, policy="expert", cameras=("front", "wrist"), im
         skill (str): a name of ``simwright.skills.names()``, or a long task such as
             "apple_into_drawer"; None: ``settings`` have ``tasks``, a tasks.json.
         count (int): number of episodes to keep.
-        policy: "expert" (the scripted expert), "shipped" (the skill's trained policy), a Policy, or
-            anything with ``act``, observations (1, O) to actions (1, A).
+        policy: "expert" (the scripted expert), "shipped" (the skill's trained policy), a Policy,
+            anything with ``act``, observations (1, O) to actions (1, A), or a function that takes
+            the environment and returns the next action (A).
         cameras, image_size, images, look: see ``simwright.envs.SkillEnv``; no cameras: no images.
         seed (int): of the episodes and their looks; equal seeds give equal episodes.
         keep (str): "successes", or "all" to keep failed episodes too, with ``success`` False.
@@ -184,8 +185,8 @@ def record(skill=None, count=50, policy="expert", cameras=("front", "wrist"), im
 def _policy(skill, policy):
     """Returns something with ``act``, or None for the expert."""
     if not isinstance(policy, str):
-        if not hasattr(policy, "act"):
-            raise _core.Error(f"policy: is {policy!r} (give expert, shipped or a Policy)")
+        if not hasattr(policy, "act") and not callable(policy):
+            raise _core.Error(f"policy: is {policy!r} (give expert, shipped, a Policy or a function)")
         return policy
     if policy not in ("expert", "shipped"):
         raise _core.Error(f"policy: is '{policy}' (give expert, shipped or a Policy)")
@@ -291,8 +292,10 @@ def _run(env, skill, acting, seed, index, describe):
             action = env.expert_action()
             if action is None:
                 raise _core.Error(f"policy: {skill} has no expert (give another policy)")
-        else:
+        elif hasattr(acting, "act"):
             action = np.asarray(acting.act(frames.rows["states"][-1][None]))[0]
+        else:
+            action = np.asarray(acting(env))
         observation, reward, terminated, truncated, info = env.step(action)
         ended = terminated or truncated
         # The next subtask of a long task starts with the commands of the one before.
