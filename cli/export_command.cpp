@@ -6,6 +6,8 @@
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/usage.h"
+#include "core/error.h"
+#include "workflows/skills/image_recording.h"
 #include "workflows/skills/policy_export.h"
 #include "workflows/skills/skill_export.h"
 #include "workflows/skills/task_world_export.h"
@@ -24,13 +26,26 @@ const std::map<std::string, PolicyFormat> kPolicyFormats = {
     {"onnx", PolicyFormat::kOnnx}, {"torchscript", PolicyFormat::kTorchScript}};
 
 const std::vector<std::string> kWorldFormats = {"mjcf", "sdf", "drake"};
+// Formats of demonstrations with images; robomimic is one only with --cameras.
+const std::vector<std::string> kImageFormats = {"lerobot", "mcap"};
 
 struct ExportFlags {
   std::filesystem::path run, output;
   std::string skill, subtask, format, task, robot = "panda";
   bool world = false, sampled = false;
   workflows::ExportRequest motions;
+  workflows::ImageRecordingRequest recording;
+  bool stated_cameras = false;
 };
+
+bool Contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool HasImages(const ExportFlags& flags) {
+  return Contains(kImageFormats, flags.format) ||
+         (flags.format == "robomimic" && flags.stated_cameras);
+}
 
 int ExportMotions(const ExportFlags& flags, const CommonOptions& common) {
   workflows::ExportRequest request = flags.motions;
@@ -91,8 +106,25 @@ int ExportWorld(const ExportFlags& flags, const CommonOptions& common) {
   return 0;
 }
 
+int ExportImages(const ExportFlags& flags, const CommonOptions& common) {
+  workflows::ImageRecordingRequest request = flags.recording;
+  request.run = flags.run;
+  request.skill = flags.skill;
+  request.format = flags.format;
+  request.output = flags.output;
+  request.episodes = flags.motions.episodes;
+  request.seed = common.seed;
+  request.quiet = common.quiet;
+  request.json = common.json;
+  if (common.force) {
+    throw core::Error("is not for data sets with images", "--force", "remove the old one yourself");
+  }
+  workflows::RecordWithPython(request);
+}
+
 int ExportAs(const ExportFlags& flags, const CommonOptions& common) {
   if (flags.world) return ExportWorld(flags, common);
+  if (HasImages(flags)) return ExportImages(flags, common);
   return kPolicyFormats.contains(flags.format) ? ExportModels(flags, common)
                                                : ExportMotions(flags, common);
 }
@@ -100,8 +132,8 @@ int ExportAs(const ExportFlags& flags, const CommonOptions& common) {
 // Throws CLI::ParseError for flags that do not belong together.
 void RequireExportSource(const ExportFlags& flags) {
   const bool policy = kPolicyFormats.contains(flags.format);
-  const bool world =
-      std::find(kWorldFormats.begin(), kWorldFormats.end(), flags.format) != kWorldFormats.end();
+  const bool world = Contains(kWorldFormats, flags.format);
+  const bool images = HasImages(flags);
   const auto need = [](bool ok, const char* option, const char* what) {
     if (!ok) throw CLI::ValidationError(option, std::string("needs ") + what);
   };
@@ -109,13 +141,15 @@ void RequireExportSource(const ExportFlags& flags) {
   need(flags.world || !world, "--format", "--world for mjcf, sdf and drake");
   need(world || flags.task.empty(), "--task", "--world");
   need(world || flags.robot == "panda", "--robot", "--world");
-  need(policy || flags.skill.empty(), "--skill", "--format onnx or torchscript");
+  need(policy || images || flags.skill.empty(), "--skill",
+       "--format onnx, torchscript, lerobot or mcap, or --cameras");
+  need(images || !flags.stated_cameras, "--cameras", "--format lerobot, mcap or robomimic");
   need(policy || world || flags.subtask.empty(), "--subtask", "a policy or --world");
   if (flags.run.empty() && flags.skill.empty()) {
     throw CLI::RequiredError(
-        policy  ? "a folder written by `simwright train`, or --skill NAME"
-        : world ? "a folder written by `simwright train`, or a tasks.json with --task NAME"
-                : "a folder written by `simwright train`");
+        policy || images ? "a folder written by `simwright train`, or --skill NAME"
+        : world          ? "a folder written by `simwright train`, or a tasks.json with --task NAME"
+                         : "a folder written by `simwright train`");
   }
 }
 
@@ -135,6 +169,26 @@ void AddMotionOptions(CLI::App* command, workflows::ExportRequest* motions) {
       ->capture_default_str();
 }
 
+void AddRecordingOptions(CLI::App* command, const std::shared_ptr<ExportFlags>& flags) {
+  workflows::ImageRecordingRequest& recording = flags->recording;
+  command
+      ->add_option("--cameras", recording.cameras,
+                   "Demonstrations with images: front, wrist, both with a comma, or none")
+      ->default_str("front,wrist; robomimic: no images")
+      ->each([flags](const std::string&) { flags->stated_cameras = true; });
+  command->add_option("--image-size", recording.image_size, "Pixels a side of the images")
+      ->check(CLI::Range(8, 4096))
+      ->capture_default_str();
+  AddChoice(command, "--look", {"none", "wide"}, "none", "How the looks of images are randomised",
+            [flags](const std::string& name) { flags->recording.look = name; });
+  AddChoice(command, "--policy", {"expert", "shipped"}, "",
+            "What acts in demonstrations with images: the scripted expert, or the trained policy",
+            [flags](const std::string& name) { flags->recording.policy = name; });
+  AddChoice(command, "--keep", {"successes", "all"}, "successes",
+            "Which episodes with images are kept",
+            [flags](const std::string& name) { flags->recording.keep = name; });
+}
+
 }  // namespace
 
 void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
@@ -145,10 +199,13 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
       "Examples:\n  simwright export open --format ros2 --joint-names fr3 -o open.yaml\n"
       "  simwright export open --format robomimic --episodes 50 -o open.hdf5\n"
       "  simwright export --skill open_drawer --format onnx -o open_drawer.onnx\n"
+      "  simwright export --skill open_drawer --format lerobot --episodes 50 -o drawers\n"
       "  simwright export tasks.json --task open_drawer_unit_1_drawer_1 --world --format mjcf -o "
       "w\n"
       "Trajectories respect the robot's limits, at 1 kHz from rest to rest. `simwright replay`\n"
-      "verifies them. Networks map an observation to an action (docs/export.md).");
+      "verifies them. Networks map an observation to an action (docs/export.md). Demonstrations\n"
+      "with images (lerobot, mcap, robomimic with --cameras) are written by the Python package\n"
+      "(docs/demonstrations.md).");
   CLI::Option* folder =
       command
           ->add_option("run", flags->run,
@@ -156,7 +213,7 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
           ->default_str("none");
   command
       ->add_option("--skill", flags->skill,
-                   "A shipped policy instead of a folder (onnx, torchscript)")
+                   "A shipped policy instead of a folder (onnx, torchscript, or images)")
       ->excludes(folder);
   command->add_option("--subtask", flags->subtask, "Only the policy or world of this subtask");
   command->add_flag("--world", flags->world,
@@ -170,9 +227,11 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
                     "With --world: a start sampled with --seed as in an evaluation, not the start "
                     "that the task describes");
   AddChoice(command, "--format",
-            {"ros2", "csv", "robomimic", "onnx", "torchscript", "mjcf", "sdf", "drake"}, "",
-            "ros2 (YAML, or JSON by the extension), csv, robomimic, onnx, torchscript; with "
-            "--world mjcf, sdf, drake",
+            {"ros2", "csv", "robomimic", "lerobot", "mcap", "onnx", "torchscript", "mjcf", "sdf",
+             "drake"},
+            "",
+            "ros2 (YAML, or JSON by the extension), csv, robomimic, onnx, torchscript; with images "
+            "lerobot, mcap; with --world mjcf, sdf, drake",
             [flags](const std::string& name) { flags->format = name; })
       ->required();
   command
@@ -180,6 +239,7 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
                    "The output file, or a folder for a world or several files")
       ->required();
   AddMotionOptions(command, &flags->motions);
+  AddRecordingOptions(command, flags);
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([flags, common, run] {

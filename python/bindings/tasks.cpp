@@ -13,8 +13,11 @@
 #include "python/bindings/bindings.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/reports.h"
+#include "rl/training.h"
+#include "skills/skill.h"
 #include "workflows/skills/skill_export.h"
 #include "workflows/skills/skill_rollout.h"
+#include "workflows/skills/skill_run.h"
 #include "workflows/skills/skill_training.h"
 #include "workflows/tasks/task_making.h"
 
@@ -91,6 +94,31 @@ nb::object ExportRun(const fs::path& run, const fs::path& output, const std::str
       report, [&](core::Progress* progress) { return workflows::Export(request, progress); })));
 }
 
+nb::dict ReadRun(const fs::path& folder) {
+  const workflows::SkillRun run = workflows::ReadRun(folder);
+  nb::list subtasks;
+  int number = 0;
+  for (const tasks::Subtask& subtask : run.set.tasks.front().subtasks) {
+    nb::dict entry;
+    entry["name"] = subtask.name;
+    entry["policy"] =
+        (workflows::SkillFolder(run, ++number, subtask.name) / rl::kPolicyFile).string();
+    subtasks.append(entry);
+  }
+  nb::dict dict;
+  dict["tasks"] = (folder / "tasks.json").string();
+  dict["robot"] = run.robot;
+  dict["action_space"] = std::string(skills::NameOf(run.options.action));
+  dict["episode_seconds"] = run.options.episode_seconds;
+  dict["finger_friction"] = nb::none();
+  if (run.options.finger_friction) {
+    dict["finger_friction"] =
+        nb::make_tuple(run.options.finger_friction->first, run.options.finger_friction->second);
+  }
+  dict["subtasks"] = subtasks;
+  return dict;
+}
+
 }  // namespace
 
 void BindTasks(nb::module_& module) {
@@ -101,6 +129,10 @@ void BindTasks(nb::module_& module) {
              "seed"_a, "resume"_a, "report"_a = nb::none());
   module.def("rollout", &Rollout, "run"_a, "episodes"_a, "seed"_a, "on"_a, "tasks"_a, "pictures"_a,
              "report"_a = nb::none());
+  module.def(
+      "read_run", &ReadRun, "folder"_a,
+      "Returns the tasks' file, robot, settings and subtasks, with their policies' paths, of "
+      "a folder of a training.");
   module.def("export_run", &ExportRun, "run"_a, "output"_a, "format"_a, "episodes"_a, "seed"_a,
              "force"_a, "report"_a = nb::none());
 }

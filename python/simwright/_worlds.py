@@ -16,13 +16,14 @@ _RENDER_TARGET = (0.5, 0.1, 0.3)
 _ACTION_SPACES = ("focus", "guided", "delta", "osc_delta", "absolute", "joints", "joint_targets")
 
 
-def settings_of(action_space, robot, episode_seconds):
+def settings_of(action_space, robot, episode_seconds, finger_friction):
     if action_space not in _ACTION_SPACES:
         raise _core.Error(f"action_space: is '{action_space}' (give one of {', '.join(_ACTION_SPACES)})")
     settings = _core.TaskSettings()
     settings.robot = robot
     settings.action_space = "delta" if action_space == "osc_delta" else action_space
     settings.episode_seconds = episode_seconds
+    settings.finger_friction = finger_friction
     if action_space == "osc_delta":
         for name, value in _OSC_SETTINGS.items():
             setattr(settings, name, value)
@@ -72,10 +73,11 @@ class Worlds:
     _index = 0
     _flip_gripper = False  # robosuite's sign
 
-    def _prepare(self, file, robot, patterns, action_space, subtask, episode_seconds):
+    def _prepare(self, file, robot, patterns, action_space, subtask, episode_seconds,
+                 finger_friction):
         """Reads the tasks of a file; `subtask` is None where all are executed."""
         patterns = [patterns] if isinstance(patterns, str) else list(patterns)
-        settings = settings_of(action_space, robot, episode_seconds)
+        settings = settings_of(action_space, robot, episode_seconds, finger_friction)
         self.task = _core.PreparedTask(file, patterns, settings)
         self.tasks_file, self.robot, self.action_space_name = file, robot, action_space
         self.subtask_index = subtask

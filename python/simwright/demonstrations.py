@@ -5,12 +5,12 @@
     demonstrations.write_lerobot("drawers", episodes)
 
     python -m simwright.demonstrations --skill open_drawer --episodes 50 --format lerobot -o drawers
+    python -m simwright.demonstrations --run FOLDER --format mcap -o episodes
 
 ``record`` yields one episode after the other; the writers take any iterable of episodes and hold
 one in memory. docs/demonstrations.md lists the keys of each format.
 """
 
-import argparse
 import dataclasses
 import json
 import re
@@ -20,9 +20,9 @@ import time
 import numpy as np
 
 from . import _core, skills
+from ._runs import RunPolicies, environment_settings
 from ._lerobot import write_lerobot
 from ._mcap import write_mcap
-from ._output import need
 from ._progress import reporter
 from ._robomimic import write_robomimic
 
@@ -36,10 +36,6 @@ _PANDA = tuple(f"panda_joint{number}" for number in range(1, 8))
 # Franka Robotics' ranges of the Panda's joints, rad.
 _PANDA_LOWER = np.array([-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973])
 _PANDA_UPPER = np.array([2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973])
-# By format: the module that it needs, its extra, its writer.
-FORMATS = {"lerobot": ("lerobot.datasets.lerobot_dataset", "lerobot", write_lerobot),
-           "mcap": ("mcap_ros2.writer", "mcap", write_mcap),
-           "robomimic": ("h5py", "robomimic", write_robomimic)}
 
 
 @dataclasses.dataclass
@@ -147,21 +143,25 @@ class Episode:
         return "joint_targets", targets.astype(np.float32)
 
 
-def record(skill=None, count=50, policy="expert", cameras=("front", "wrist"), image_size=128,
-           images=("rgb",), look=None, seed=1, keep="successes", progress=None, **settings):
+def record(skill=None, count=50, policy=None, cameras=("front", "wrist"), image_size=128,
+           images=("rgb",), look=None, seed=1, keep="successes", progress=None, run=None,
+           **settings):
     """Records episodes.
 
     Args:
         skill (str): a name of ``simwright.skills.names()``, or a long task such as
-            "apple_into_drawer"; None: ``settings`` have ``tasks``, a tasks.json.
+            "apple_into_drawer"; None: there is a ``run``, or ``settings`` have ``tasks``, a
+            tasks.json.
         count (int): number of episodes to keep.
         policy: "expert" (the scripted expert), "shipped" (the skill's trained policy), a Policy,
             anything with ``act``, observations (1, O) to actions (1, A), or a function that takes
-            the environment and returns the next action (A).
+            the environment and returns the next action (A). None: the policies of ``run``, else
+            "expert".
         cameras, image_size, images, look: see ``simwright.envs.SkillEnv``; no cameras: no images.
         seed (int): of the episodes and their looks; equal seeds give equal episodes.
         keep (str): "successes", or "all" to keep failed episodes too, with ``success`` False.
         progress: see ``simwright``.
+        run (path): a folder written by ``simwright train``: its tasks, robot and settings.
         **settings: of the environment, such as ``split``, ``instances``, ``robot`` and
             ``episode_seconds``.
 
@@ -176,7 +176,14 @@ def record(skill=None, count=50, policy="expert", cameras=("front", "wrist"), im
         raise _core.Error(f"keep: is {keep!r} (give 'successes' or 'all')")
     if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
         raise _core.Error(f"count: is {count!r} (give an int of at least 1)")
-    acting = _policy(skill, policy)
+    if run is not None:
+        if skill is not None:
+            raise _core.Error("run: is given beside a skill (give one of them)")
+        told = _core.read_run(str(run))
+        settings = {**environment_settings(told), **settings}
+        acting = RunPolicies(told) if policy is None else _policy(skill, policy)
+    else:
+        acting = _policy(skill, "expert" if policy is None else policy)
     env = _environment(skill, acting, settings, cameras=cameras, image_size=image_size,
                        images=images, look=look, progress=progress)
     return _record(env, skill, int(count), acting, int(seed), keep, reporter(progress))
@@ -217,6 +224,8 @@ def _environment(skill, acting, settings, **pictures):
     try:
         if skill in long_tasks:
             return envs.LongTaskEnv(name=skill, **settings, **pictures)
+        if skill is None and settings.pop("long", False):
+            return envs.LongTaskEnv(**settings, **pictures)
         return envs.SkillEnv(cell=skill, **settings, **pictures)
     except TypeError as error:
         raise _core.Error(f"settings: are not those of an environment ({error})") from None
@@ -389,55 +398,10 @@ class _Descriptions:
         return (found or self._tasks)[0]
 
 
-def _parser():
-    parser = argparse.ArgumentParser(
-        prog="python -m simwright.demonstrations", description="Records demonstrations of a skill "
-        "with camera images, for imitation learning (docs/demonstrations.md).",
-        formatter_class=argparse.ArgumentDefaultsHelpFormatter)
-    add = parser.add_argument
-    add("--skill", required=True, help="such as open_drawer, or a long task: apple_into_drawer ...")
-    add("--episodes", type=int, default=50, help="number of episodes to keep")
-    add("--format", required=True, choices=list(FORMATS), help="of the data set")
-    add("-o", "--output", required=True, help="folder (lerobot) or file (mcap, robomimic)")
-    add("--cameras", default="front,wrist", help="front, wrist, both with a comma, or none")
-    add("--image-size", type=int, default=128, help="pixels a side")
-    add("--look", choices=["none", "wide"], default="none", help="randomised look")
-    add("--policy", choices=["expert", "shipped"], default="expert", help="what acts")
-    add("--split", choices=["train", "unseen"], default="train", help="instances of the objects")
-    add("--instances", type=int, default=None, help="number of instances; default: the skill's")
-    add("--keep", choices=["successes", "all"], default="successes", help="episodes to keep")
-    add("--actions", choices=["joint_targets", "policy"], default="joint_targets",
-        help="commanded joints, or the policy's actions relative to the object")
-    add("--seed", type=int, default=1, help="of the episodes and their looks")
-    add("--quiet", action="store_true", help="shows no progress")
-    return parser
-
-
 def main(arguments=None):
-    """Runs the command; returns its exit code."""
-    told = _parser().parse_args(arguments)
-    settings = {} if told.instances is None else {"instances": told.instances}
-    if told.skill in skills.names():
-        settings["split"] = told.split
-    cameras = [] if told.cameras == "none" else told.cameras.split(",")
-    module, extra, write = FORMATS[told.format]
-    try:
-        need(module, extra)
-        episodes = record(told.skill, told.episodes, policy=told.policy, cameras=cameras,
-                          image_size=told.image_size,
-                          look=None if told.look == "none" else told.look, seed=told.seed,
-                          keep=told.keep, progress=False if told.quiet else None, **settings)
-        report = write(told.output, episodes,
-                       **({} if told.format == "mcap" else {"actions": told.actions}))
-    except (_core.Error, OSError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("error: interrupted (run the command again)", file=sys.stderr)
-        return 130
-    print(f"{told.output}: {report['episodes']} episodes, {report['steps']} steps, "
-          f"{report['successes']} successes")
-    return 0
+    """Runs the command ``python -m simwright.demonstrations``; returns its exit code."""
+    from ._recording_command import main as command
+    return command(arguments)
 
 
 if __name__ == "__main__":

@@ -47,6 +47,8 @@ class SkillEnv(Worlds, gymnasium.Env):
         render_mode (str): None or "rgb_array".
         render_size (width, height): pixels, of ``render()``.
         progress: see ``simwright``; making the objects of a cell takes up to a minute once.
+        finger_friction (low, high): range of the fingers' friction coefficient, sampled for each
+            episode; None: the robot's.
 
     Observations are (O) float32, about 1 in size (docs/skills.md). ``info`` has ``success`` (the
     goal holds now), ``is_success`` (it held for half a second, which ends the episode) and, after a
@@ -58,10 +60,10 @@ class SkillEnv(Worlds, gymnasium.Env):
     def __init__(self, cell=None, tasks=None, task="*", subtask=0, split="train", instances=None,
                  action_space="focus", robot=None, easy_starts=False, episode_seconds=None,
                  cameras=(), image_size=128, images=("rgb",), look=None, render_mode=None,
-                 render_size=(480, 360), progress=None):
+                 render_size=(480, 360), progress=None, finger_friction=None):
         file, robot = task_file(cell, tasks, robot, split, instances, progress)
         self._prepare(file, robot, "*" if tasks is None else task, action_space, int(subtask),
-                      episode_seconds)
+                      episode_seconds, finger_friction)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
         self._episode = _core.SingleEpisode(self.task, int(subtask), not easy_starts)
         self._eyes = self._make_cameras(int(subtask), not easy_starts)
@@ -139,11 +141,11 @@ class SkillVectorEnv(Worlds, gymnasium.vector.VectorEnv):
     def __init__(self, num_envs=1, cell=None, tasks=None, task="*", subtask=0, split="train",
                  instances=None, action_space="focus", robot=None, easy_starts=False,
                  episode_seconds=None, cameras=(), image_size=128, images=("rgb",), look=None,
-                 render_mode=None, render_size=(480, 360), progress=None):
+                 render_mode=None, render_size=(480, 360), progress=None, finger_friction=None):
         self.num_envs = int(num_envs)
         file, robot = task_file(cell, tasks, robot, split, instances, progress)
         self._prepare(file, robot, "*" if tasks is None else task, action_space, int(subtask),
-                      episode_seconds)
+                      episode_seconds, finger_friction)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
         self._episodes = _core.VectorEpisodes(self.task, int(subtask), self.num_envs, not easy_starts)
         self._eyes = self._make_cameras(int(subtask), not easy_starts)
@@ -236,14 +238,15 @@ class LongTaskEnv(Worlds, gymnasium.Env):
 
     def __init__(self, name=None, tasks=None, task="*", action_space="focus", robot=None,
                  episode_seconds=None, cameras=(), image_size=128, images=("rgb",), look=None,
-                 render_mode=None, render_size=(480, 360), progress=None):
+                 render_mode=None, render_size=(480, 360), progress=None, finger_friction=None):
         if (name is None) == (tasks is None):
             raise _core.Error("environment: needs a long task, or a tasks.json (give name= or tasks=)")
         if name is not None:
             known = next((entry for entry in _core.long_tasks() if entry["name"] == name), None)
             tasks = long_task(name, reporter(progress))
             robot = robot or known["robot"]
-        self._prepare(str(tasks), robot or "panda", task, action_space, None, episode_seconds)
+        self._prepare(str(tasks), robot or "panda", task, action_space, None, episode_seconds,
+                      finger_friction)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
         count = len(self.task.subtasks)
         self._episodes = [_core.SingleEpisode(self.task, index, True) for index in range(count)]
