@@ -20,7 +20,7 @@ def need(module, extra):
     except ImportError as error:
         missing = getattr(error, "name", None) or module
         raise _core.Error(f"{extra}: the package {missing} is missing "
-                          f"(pip install 'simwright[{extra}]')") from None
+                          f"(in the source folder: pip install '.[{extra}]')") from None
 
 
 @contextlib.contextmanager

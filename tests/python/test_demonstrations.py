@@ -213,7 +213,7 @@ def test_png_chunks():
 def test_missing_extras(module, extra, write, tmp_path, capsys, episodes):
     if importlib.util.find_spec(module) is not None:
         pytest.skip(f"{module} is installed")
-    remedy = f"pip install 'simwright[{extra}]'"
+    remedy = f"pip install '.[{extra}]'"
     with pytest.raises(sw.Error) as raised:
         write(tmp_path / "demos", episodes)
     assert remedy in str(raised.value)
