@@ -37,9 +37,6 @@ from simwright import demonstrations, envs
 BLOCK = 20
 NUMBERS = 8
 CAMERAS = ("front", "wrist")
-# The Panda's joint ranges, rad, by which the action space "joint_targets" is scaled.
-LOWER = np.array([-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973])
-UPPER = np.array([2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973])
 
 
 def body(joints, opening, tool):
@@ -286,12 +283,13 @@ class _Sight:
 def run(env, observation, policy, execute):
     """Runs an episode; returns whether it succeeded."""
     sight = _Sight(env, observation)
+    lower, upper = np.array([limits for _, *limits in env.task.arm_joints]).T
     while True:
         inputs, joints = sight(observation)
         with torch.inference_mode():
             chunk = policy(*inputs)[0][0, :execute].double().numpy()
         for command in chunk:
-            targets = (2 * (joints + command[:7]) - LOWER - UPPER) / (UPPER - LOWER)
+            targets = (2 * (joints + command[:7]) - lower - upper) / (upper - lower)
             action = np.clip(np.append(targets, command[7]), -1, 1).astype(np.float32)
             observation, _, terminated, truncated, info = env.step(action)
             if terminated or truncated:

@@ -6,6 +6,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include "core/error.h"
@@ -61,6 +62,17 @@ std::string PreparedTask::Description(int subtask) const {
   return run_.set.tasks.front().subtasks[static_cast<size_t>(subtask)].description;
 }
 
+std::vector<JointRange> PreparedTask::ArmJoints() const {
+  const robot::RobotModel& robot = *SkillAt(0, true)->robot;
+  std::vector<JointRange> ranges;
+  for (size_t j = 0; j < robot.arm.joints.size(); ++j) {
+    const auto index = static_cast<size_t>(robot.arm_joints[j]);
+    ranges.emplace_back(robot.urdf.joints[index].name, robot.arm.joints[j].lower,
+                        robot.arm.joints[j].upper);
+  }
+  return ranges;
+}
+
 std::shared_ptr<const skills::Skill> PreparedTask::SkillAt(int subtask, bool evaluated) const {
   if (subtask < 0 || subtask >= static_cast<int>(skills_.size())) {
     throw core::Error("there is no subtask " + std::to_string(subtask), run_.set.tasks.front().name,
@@ -95,6 +107,8 @@ void BindPreparedTask(nb::module_& module) {
           "file"_a, "tasks"_a, "settings"_a)
       .def_prop_ro("subtasks", &PreparedTask::SubtaskNames, "names, in order")
       .def_prop_ro("tasks", &PreparedTask::TaskNames, "names")
+      .def_prop_ro("arm_joints", &PreparedTask::ArmJoints,
+                   "name, lower and upper limit (rad or m) of the arm's joints, root to tool")
       .def("description", &PreparedTask::Description, "subtask"_a)
       .def(
           "observation_size",

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <nanobind/nanobind.h>
@@ -22,6 +23,8 @@ struct TaskSettings {
   std::optional<std::pair<double, double>> finger_friction;
 };
 
+using JointRange = std::tuple<std::string, double, double>;  // name, lower, upper (rad or m)
+
 // Tasks of a tasks.json, one or several similar ones, with their subtasks ready to run. Constant.
 class PreparedTask {
  public:
@@ -31,6 +34,7 @@ class PreparedTask {
 
   std::vector<std::string> SubtaskNames() const;
   std::vector<std::string> TaskNames() const;
+  std::vector<JointRange> ArmJoints() const;
   // Returns the sentence that describes a subtask of the first task.
   std::string Description(int subtask) const;
   // `evaluated`: without easier start states. Throws core::Error for another index.

@@ -32,10 +32,6 @@ STEP_SECONDS = 0.05
 # Fewer successes than this share of the attempts end a recording.
 _LEAST_SUCCESS = 0.05
 _LEAST_ATTEMPTS = 20
-_PANDA = tuple(f"panda_joint{number}" for number in range(1, 8))
-# Franka Robotics' ranges of the Panda's joints, rad.
-_PANDA_LOWER = np.array([-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973])
-_PANDA_UPPER = np.array([2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973])
 
 
 @dataclasses.dataclass
@@ -55,6 +51,7 @@ class Episode:
         states (T + 1, O) float32: the policies' observation, which knows the objects
             (docs/skills.md).
         joints (T + 1, J): the arm's joints, rad or m; ``joint_names`` (J).
+        joint_ranges (J, 2): their lower and upper limits.
         openings (T + 1): m between the fingertips.
         tools (T + 1, 4, 4): robot's base from the frame between the fingertips, m.
         base (4, 4): world from the robot's base, m.
@@ -81,6 +78,7 @@ class Episode:
     instructions: list
     action_space: str
     joint_names: tuple
+    joint_ranges: np.ndarray
     subtasks: np.ndarray
     states: np.ndarray
     joints: np.ndarray
@@ -128,17 +126,17 @@ class Episode:
                 in the environments' action space of this name.
 
         Raises:
-            Error: for another name, or joint targets of another robot than the Panda.
+            Error: for another name, or joint targets of a robot with a joint without limits.
         """
         if which == "policy":
             return self.action_space, self.actions
         if which != "joint_targets":
             raise _core.Error(f"actions: is {which!r} (give 'joint_targets' or 'policy')")
-        if self.joint_names != _PANDA:
-            raise _core.Error(f"actions: the joints' ranges of {self.robot} are not known here "
-                              "(give actions='policy')")
+        if not np.isfinite(self.joint_ranges).all():
+            raise _core.Error(f"actions: a joint of {self.robot} has no limits, by which targets are "
+                              "scaled (give actions='policy')")
         targets = self.targets
-        middle, half = 0.5 * (_PANDA_UPPER + _PANDA_LOWER), 0.5 * (_PANDA_UPPER - _PANDA_LOWER)
+        middle, half = self.joint_ranges.mean(axis=1), 0.5 * np.ptp(self.joint_ranges, axis=1)
         targets[:, :-1] = np.clip((targets[:, :-1] - middle) / half, -1.0, 1.0)
         return "joint_targets", targets.astype(np.float32)
 
@@ -315,7 +313,9 @@ def _run(env, skill, acting, seed, index, describe):
     return Episode(
         skill=skill or about["task"], task=about["task"], robot=env.robot, seed=seed, index=index,
         success=bool(info["is_success"]), instructions=about["instructions"],
-        action_space=env.action_space_name, joint_names=_joint_names(env),
+        action_space=env.action_space_name,
+        joint_names=tuple(name for name, _, _ in env.task.arm_joints),
+        joint_ranges=np.array([limits for _, *limits in env.task.arm_joints]),
         subtasks=frames.array("subtasks", np.int64), states=frames.array("states", np.float32),
         joints=frames.array("joints"), openings=frames.array("openings"),
         tools=frames.array("tools"), base=base,
@@ -327,14 +327,6 @@ def _run(env, skill, acting, seed, index, describe):
         images={name: np.stack(images) for name, images in frames.images.items()},
         camera_poses={name: np.asarray(poses) for name, poses in frames.poses.items()},
         intrinsics=frames.intrinsics, legend=about["legend"])
-
-
-def _joint_names(env):
-    """Returns the names of the arm's joints: the Panda's, else joint1, joint2 ..."""
-    size = len(env.state()["robot_joints"])
-    if env.robot in ("panda", "panda_on_base"):
-        return _PANDA[:size]
-    return tuple(f"joint{number}" for number in range(1, size + 1))
 
 
 def _pose(told):
