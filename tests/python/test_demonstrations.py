@@ -1,15 +1,18 @@
 """Recording of demonstrations; what their writers need (peers/ reads what they write)."""
 
 import importlib.util
+import json
 import zlib
 
 import numpy as np
 import pytest
 
 import simwright as sw
-from simwright import demonstrations, envs
+from simwright import _core, demonstrations, envs
+from simwright._cells import cell_tasks
 from simwright._mcap import png
 from simwright._robomimic import xyzw
+from simwright._runs import RunPolicies
 
 DRAWER = dict(skill="open_drawer", instances=4, image_size=24)
 
@@ -232,3 +235,47 @@ def test_command_line_errors(capsys, tmp_path):
     with pytest.raises(SystemExit) as stopped:
         demonstrations.main(["--skill", "open_drawer", "--format", "zip", "-o", "x"])
     assert stopped.value.code == 2
+
+
+def test_a_folder_of_train_is_recorded_with_its_policies(tmp_path):
+    run = tmp_path / "run"
+    tasks = cell_tasks("open_drawer", "train", 4)
+    name = json.loads(tasks.read_text())["tasks"][0]["name"]
+    sw.tasks.train(tasks, name, run, num_envs=16, samples=4096, imitated_samples=2048, episodes=4,
+                   action_space="guided", progress=False)
+    recorded, = demonstrations.record(run=run, count=1, keep="all", cameras=[], progress=False,
+                                      episode_seconds=1.0)
+    assert recorded.action_space == "guided" and recorded.task == name and len(recorded) == 20
+    policy = sw.skills.load(next(run.glob("*/policy.pt")))
+    np.testing.assert_allclose(recorded.actions, np.clip(policy.act(recorded.states[:-1]), -1, 1),
+                               atol=1e-6)
+    with pytest.raises(sw.Error, match="run"):
+        demonstrations.record("open_drawer", run=run)
+    with pytest.raises(sw.Error):
+        demonstrations.record(run=tmp_path)
+
+
+def test_each_subtask_of_a_run_has_its_policy():
+    names = ["open_drawer", "pick_up_cup"]
+    policies = [sw.skills.load(name) for name in names]
+    folder = sw.skills._models()
+    acting = RunPolicies({"action_space": "focus", "subtasks": [
+        {"policy": str(_core.shipped_policy_path(str(folder), name))} for name in names]})
+    states = np.random.default_rng(1).normal(size=(1, 2 + 80)).astype(np.float32)
+    for index, policy in enumerate(policies):
+        states[0, :2] = np.arange(2) == index
+        own = np.ascontiguousarray(states[:, 2:2 + policy.observation_size])
+        np.testing.assert_array_equal(acting.act(states), policy.act(own))
+
+
+def test_a_function_acts():
+    calls = []
+
+    def act(env):
+        calls.append(env.state()["seconds"])
+        return np.zeros(env.action_space.shape)
+
+    episode, = demonstrations.record("open_drawer", 1, policy=act, keep="all", cameras=[],
+                                     progress=False, instances=4, episode_seconds=0.5)
+    np.testing.assert_allclose(calls, np.arange(10) * 0.05, atol=1e-9)
+    assert not episode.actions.any()
