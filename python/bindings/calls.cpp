@@ -1,6 +1,6 @@
 #include "python/bindings/calls.h"
 
-#include <atomic>
+#include <mutex>
 
 #include <nanobind/stl/string.h>
 
@@ -9,7 +9,10 @@
 namespace simwright::python {
 namespace {
 
-std::atomic<int> scopes{0};
+// Calls of several threads share the handler, which the first installs and the last removes.
+std::mutex scope_mutex;
+int scopes = 0;
+bool installed = false;
 struct sigaction python_action;  // the handler while a scope lives
 
 void OnSignal(int number) {
@@ -35,7 +38,11 @@ void RaiseError(const core::Error& error) {
 }
 
 void RaiseInterrupt() {
-  core::ClearCancelRequest();
+  {
+    // A call of another thread has yet to see the request.
+    const std::lock_guard lock(scope_mutex);
+    if (scopes == 0) core::ClearCancelRequest();
+  }
   // Python's handler ran too: it raises KeyboardInterrupt here in the main thread.
   if (PyErr_CheckSignals() == 0) PyErr_SetNone(PyExc_KeyboardInterrupt);
 }
@@ -53,6 +60,7 @@ void Translate(const std::exception_ptr& pointer, void*) {
 }  // namespace
 
 InterruptScope::InterruptScope() {
+  const std::lock_guard lock(scope_mutex);
   if (scopes++ > 0) return;
   core::ClearCancelRequest();
   struct sigaction action = {};
@@ -61,12 +69,14 @@ InterruptScope::InterruptScope() {
   action.sa_handler = OnSignal;
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
-  installed_ = true;
+  installed = true;
 }
 
 InterruptScope::~InterruptScope() {
-  if (installed_) sigaction(SIGINT, &python_action, nullptr);
-  --scopes;
+  const std::lock_guard lock(scope_mutex);
+  if (--scopes > 0 || !installed) return;
+  sigaction(SIGINT, &python_action, nullptr);
+  installed = false;
 }
 
 core::ProgressListener ListenerOf(nb::handle report) {

@@ -12,16 +12,14 @@ namespace simwright::python {
 namespace nb = nanobind;
 
 // While this object lives, Ctrl-C asks running work to stop (core::RequestCancel) and then reaches
-// Python's own handler. Nothing changes where SIGINT is ignored, or in a second scope.
+// Python's own handler. Calls of several threads stop together. Nothing changes where SIGINT is
+// ignored.
 class InterruptScope {
  public:
   InterruptScope();
   ~InterruptScope();
   InterruptScope(const InterruptScope&) = delete;
   InterruptScope& operator=(const InterruptScope&) = delete;
-
- private:
-  bool installed_ = false;
 };
 
 // Returns the listener that calls `report(name, detail, done, total, elapsed)` with the GIL held;

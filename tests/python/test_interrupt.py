@@ -30,3 +30,43 @@ def test_ctrl_c_stops_a_long_call(tmp_path):
     assert time.monotonic() - start < 20.0
     assert child.stdout.readline().split() == ["mug", "1"]
     assert child.wait(timeout=60) == 0
+
+
+TWO = """
+import sys, threading, time, simwright as sw
+ended = []
+
+def work(name, count):
+    try:
+        sw.scenes.generate("pantry_shelf", f"{sys.argv[1]}_{name}", count=count, progress=False)
+        ended.append(f"{name} done")
+    except KeyboardInterrupt:
+        ended.append(f"{name} stopped")
+
+# The first call, which ends by itself, is in progress when the second begins.
+first = threading.Thread(target=work, args=("first", 40))
+second = threading.Thread(target=work, args=("second", 100000))
+first.start()
+time.sleep(0.05)
+second.start()
+first.join()
+print("ready", flush=True)
+try:
+    second.join()
+except KeyboardInterrupt:
+    second.join()
+print(", ".join(ended), flush=True)
+"""
+
+
+def test_ctrl_c_stops_the_call_that_outlives_another(tmp_path):
+    child = subprocess.Popen([sys.executable, "-c", TWO, str(tmp_path / "out")], text=True,
+                             stdout=subprocess.PIPE, env=dict(os.environ))
+    assert child.stdout.readline().strip() == "ready"
+    time.sleep(0.5)
+    child.send_signal(signal.SIGINT)
+    try:
+        assert child.stdout.readline().strip() == "first done, second stopped"
+        assert child.wait(timeout=60) == 0
+    finally:
+        child.kill()
