@@ -113,7 +113,7 @@ nb::dict ReadRun(const fs::path& folder) {
   dict["finger_friction"] = nb::none();
   if (run.options.finger_friction) {
     dict["finger_friction"] =
-        nb::make_tuple(run.options.finger_friction->first, run.options.finger_friction->second);
+        nb::make_tuple(run.options.finger_friction->low, run.options.finger_friction->high);
   }
   dict["subtasks"] = subtasks;
   return dict;

@@ -51,10 +51,11 @@ time.sleep(0.05)
 second.start()
 first.join()
 print("ready", flush=True)
-try:
-    second.join()
-except KeyboardInterrupt:
-    second.join()
+while len(ended) < 2:  # Ctrl-C in join() marks the thread as ended
+    try:
+        time.sleep(0.05)
+    except KeyboardInterrupt:
+        pass
 print(", ".join(ended), flush=True)
 """
 
