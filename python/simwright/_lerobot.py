@@ -1,6 +1,11 @@
 """LeRobotDataset v3, written by the package lerobot."""
 
+import contextlib
 import copy
+import importlib
+import os
+import shutil
+import warnings
 
 import numpy as np
 
@@ -33,7 +38,7 @@ def write_lerobot(root, episodes, repo_id="simwright/demonstrations", fps=_FRAME
     if fps != _FRAMES_PER_SECOND:
         raise _core.Error(f"fps: is {fps} (the episodes have 20 frames per second)")
     totals = Totals(root)
-    with placed(root, False) as partial:
+    with placed(root, False) as partial, _quiet():
         dataset = None
         try:
             for episode in episodes:
@@ -57,7 +62,30 @@ def write_lerobot(root, episodes, repo_id="simwright/demonstrations", fps=_FRAME
             if dataset is not None:
                 dataset.finalize()
                 _stop_threads(dataset)
+        _remove_empty(partial / "images")
     return report
+
+
+@contextlib.contextmanager
+def _quiet():
+    """Leaves out what the encoder, the tables' bars and numpy's notice about labels print."""
+    datasets = importlib.import_module("datasets")
+    shown = not datasets.are_progress_bars_disabled()
+    os.environ.setdefault("SVT_LOG", "1")  # errors alone
+    datasets.disable_progress_bars()
+    try:
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Converting input from bool", RuntimeWarning)
+            yield
+    finally:
+        if shown:
+            datasets.enable_progress_bars()
+
+
+def _remove_empty(folder):
+    """Removes a folder without files: the encoder leaves those of the images that it has read."""
+    if folder.is_dir() and not any(path.is_file() for path in folder.rglob("*")):
+        shutil.rmtree(folder)
 
 
 def _stop_threads(dataset):

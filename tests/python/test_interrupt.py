@@ -44,7 +44,7 @@ def work(name, count):
         ended.append(f"{name} stopped")
 
 # The first call, which ends by itself, is in progress when the second begins.
-first = threading.Thread(target=work, args=("first", 40))
+first = threading.Thread(target=work, args=("first", 4))
 second = threading.Thread(target=work, args=("second", 100000))
 first.start()
 time.sleep(0.05)
