@@ -1,16 +1,23 @@
 """Assets: reading, importing, lifting from photos, generating and checking them."""
 
+from __future__ import annotations
+
 from os import fspath
+from typing import TYPE_CHECKING, cast
 
 from . import _core
 from ._core import ArticulatedAsset, Asset, Link
 from ._progress import reporter
 
+if TYPE_CHECKING:
+    from ._types import (ImportOutcome, LibraryOutcome, LiftOutcome, LiftShape, Path, Paths,
+                         ProgressArgument, Report, UpAxis)
+
 __all__ = ["ArticulatedAsset", "Asset", "Link", "check", "import_assets", "library", "library_kinds",
            "lift", "read"]
 
 
-def read(folder):
+def read(folder: Path) -> Asset | ArticulatedAsset:
     """Reads an asset folder.
 
     Args:
@@ -22,11 +29,12 @@ def read(folder):
     Raises:
         Error: if asset.json is missing, malformed, or names a missing mesh.
     """
-    return _core.read_asset(fspath(folder))
+    return cast("Asset | ArticulatedAsset", _core.read_asset(fspath(folder)))
 
 
-def import_assets(inputs, output, category="", up="", unit=0.0, height=0.0, seed=1, check=True,
-                  force=False, progress=None):
+def import_assets(inputs: Paths, output: Path, category: str = "", up: UpAxis = "",
+                  unit: float = 0.0, height: float = 0.0, seed: int = 1, check: bool = True,
+                  force: bool = False, progress: ProgressArgument = None) -> list[ImportOutcome]:
     """Imports meshes, URDFs, ROS packages and catalogues as asset folders.
 
     Args:
@@ -42,7 +50,8 @@ def import_assets(inputs, output, category="", up="", unit=0.0, height=0.0, seed
         progress: see ``simwright``.
 
     Returns:
-        list of dict: ``name``, ``folder`` (None if refused), ``refusal``, ``grade``, ``findings``.
+        list of dict: ``name``, ``folder`` (None if refused), ``refusal``, ``findings``, and
+        ``grade`` where it was checked.
 
     Raises:
         Error: for an input that does not exist or holds nothing to import, or an existing output.
@@ -54,8 +63,9 @@ def import_assets(inputs, output, category="", up="", unit=0.0, height=0.0, seed
                                reporter(progress))
 
 
-def lift(photo, category, output, mask=None, shape="auto", fast=False, height=0.0, seed=1,
-         force=False, progress=None):
+def lift(photo: Path, category: str, output: Path, mask: Path | None = None,
+         shape: LiftShape = "auto", fast: bool = False, height: float = 0.0, seed: int = 1,
+         force: bool = False, progress: ProgressArgument = None) -> LiftOutcome:
     """Reconstructs an asset folder from one photo.
 
     Args:
@@ -76,16 +86,18 @@ def lift(photo, category, output, mask=None, shape="auto", fast=False, height=0.
     Raises:
         Error: if the photo cannot be read, no object stands out, or the output exists.
     """
-    return _core.lift(fspath(photo), category, fspath(output), None if mask is None else fspath(mask),
-                      shape, bool(fast), float(height), int(seed), bool(force), reporter(progress))
+    return cast("LiftOutcome", _core.lift(
+        fspath(photo), category, fspath(output), None if mask is None else fspath(mask), shape,
+        bool(fast), float(height), int(seed), bool(force), reporter(progress)))
 
 
-def library_kinds():
+def library_kinds() -> dict[str, str]:
     """Returns the kinds of parametric assets: name to description (dict)."""
     return _core.library_kinds()
 
 
-def library(kind, output, count=1, seed=1, check=True, force=False, progress=None):
+def library(kind: str, output: Path, count: int = 1, seed: int = 1, check: bool = True,
+            force: bool = False, progress: ProgressArgument = None) -> list[LibraryOutcome]:
     """Makes parametric assets, articulated and rigid.
 
     Args:
@@ -98,8 +110,8 @@ def library(kind, output, count=1, seed=1, check=True, force=False, progress=Non
         progress: see ``simwright``.
 
     Returns:
-        list of dict: ``name``, ``kind``, ``folder`` (None if refused), ``refusal``, ``grade``,
-        ``findings``.
+        list of dict: ``name``, ``kind``, ``folder`` (None if refused), ``refusal``, ``findings``,
+        and ``grade`` where it was checked.
 
     Raises:
         Error: for an unknown kind, a count below 1, or an existing output.
@@ -108,7 +120,7 @@ def library(kind, output, count=1, seed=1, check=True, force=False, progress=Non
                               reporter(progress))
 
 
-def check(path, progress=None):
+def check(path: Path, progress: ProgressArgument = None) -> Report:
     """Checks an asset folder or a URDF: geometry, inertia, file readers, a drop test, joints.
 
     Args:
@@ -121,4 +133,4 @@ def check(path, progress=None):
     Raises:
         Error: if the path does not exist or cannot be read at all.
     """
-    return _core.check(fspath(path), reporter(progress))
+    return cast("Report", _core.check(fspath(path), reporter(progress)))

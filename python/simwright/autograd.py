@@ -1,9 +1,14 @@
 """The differentiable renderer as a torch function: gradients reach vertices, colours and light."""
 
+from __future__ import annotations
+
+from typing import cast
+
 import numpy as np
 import torch
 
 from . import _core
+from .render import DifferentiableRenderer
 
 __all__ = ["render"]
 
@@ -51,7 +56,9 @@ class _Render(torch.autograd.Function):
                 like("light", light))
 
 
-def render(renderer, camera, vertices, colors=None, light=None, seed=0):
+def render(renderer: DifferentiableRenderer, camera: _core.Camera, vertices: torch.Tensor,
+           colors: torch.Tensor | None = None, light: torch.Tensor | None = None,
+           seed: int = 0) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
     """Renders an image with gradients.
 
     Args:
@@ -71,4 +78,5 @@ def render(renderer, camera, vertices, colors=None, light=None, seed=0):
     if tuple(vertices.shape) != (len(renderer.welded), 3):
         raise _core.Error(f"vertices: have the shape {tuple(vertices.shape)} "
                           f"(give {(len(renderer.welded), 3)})")
-    return _Render.apply(renderer, camera, int(seed), vertices, colors, light)
+    return cast("tuple[torch.Tensor, torch.Tensor, torch.Tensor]",
+                _Render.apply(renderer, camera, int(seed), vertices, colors, light))

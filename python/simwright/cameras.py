@@ -4,18 +4,27 @@
     env = gymnasium.make("simwright/OpenDrawer-v0", cameras=["wrist", spec], look="wide")
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from . import _core
 from ._arguments import array
 from ._core import CameraSpec, LookRanges
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from ._types import Cameras, ImageSize, Look
+
 __all__ = ["CameraSpec", "LookRanges", "camera", "defaults", "look"]
 
 KINDS = ("rgb", "depth", "segmentation", "normal")
 
 
-def defaults(width=128, height=128):
+def defaults(width: int = 128, height: int = 128) -> dict[str, CameraSpec]:
     """Returns the cameras "front" (beside the robot) and "wrist" (on the hand), by name.
 
     Args:
@@ -24,8 +33,10 @@ def defaults(width=128, height=128):
     return {spec.name: spec for spec in _core.default_cameras(int(width), int(height))}
 
 
-def camera(name, pose=None, position=None, target=None, up=(0.0, 0.0, 1.0), mount="world", width=128,
-           height=128, vertical_fov=0.8, intrinsics=None):
+def camera(name: str, pose: ArrayLike | None = None, position: ArrayLike | None = None,
+           target: ArrayLike | None = None, up: ArrayLike = (0.0, 0.0, 1.0), mount: str = "world",
+           width: int = 128, height: int = 128, vertical_fov: float = 0.8,
+           intrinsics: ArrayLike | None = None) -> CameraSpec:
     """Describes a camera.
 
     Args:
@@ -55,7 +66,7 @@ def camera(name, pose=None, position=None, target=None, up=(0.0, 0.0, 1.0), moun
                       int(height), float(vertical_fov), intrinsics)
 
 
-def look(value=None):
+def look(value: Look = None) -> LookRanges:
     """Returns ranges of a randomised look: of None (off), "wide", a dict, or LookRanges.
 
     Raises:
@@ -80,7 +91,7 @@ def look(value=None):
     return ranges
 
 
-def chosen(cameras, size):
+def chosen(cameras: Cameras, size: ImageSize) -> list[CameraSpec]:
     """Returns the specs of names and specs; "front" and "wrist" get `size` pixels a side."""
     width, height = (size, size) if np.isscalar(size) else size
     known = defaults(width, height)

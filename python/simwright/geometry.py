@@ -1,16 +1,24 @@
 """Solids, convex decomposition and mass properties of triangle meshes."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
 from . import _core
 from ._arguments import mesh
 from ._core import MassProperties, Mesh
 from ._progress import reporter
+
+if TYPE_CHECKING:
+    from ._types import DecompositionFacts, ProgressArgument, SolidFacts
 
 __all__ = ["MassProperties", "Mesh", "decompose", "make_solid", "mass_properties", "mesh", "read_mesh"]
 
 read_mesh = _core.read_mesh
 
 
-def make_solid(mesh, face_budget=20000, progress=None):
+def make_solid(mesh: Mesh, face_budget: int = 20000,
+               progress: ProgressArgument = None) -> tuple[Mesh, SolidFacts]:
     """Makes one closed solid from any triangles: soups, open, inverted, doubled, intersecting.
 
     Args:
@@ -25,10 +33,13 @@ def make_solid(mesh, face_budget=20000, progress=None):
     Raises:
         Error: for a mesh without faces or extent.
     """
-    return _core.make_solid(mesh, int(face_budget), reporter(progress))
+    return cast("tuple[Mesh, SolidFacts]",
+                _core.make_solid(mesh, int(face_budget), reporter(progress)))
 
 
-def decompose(solid, threshold=0.05, max_parts=0, max_vertices=64, seed=1, progress=None):
+def decompose(solid: Mesh, threshold: float = 0.05, max_parts: int = 0, max_vertices: int = 64,
+              seed: int = 1, progress: ProgressArgument = None,
+              ) -> tuple[list[Mesh], DecompositionFacts]:
     """Decomposes a closed solid into convex parts that leave its hollows open.
 
     Args:
@@ -45,11 +56,12 @@ def decompose(solid, threshold=0.05, max_parts=0, max_vertices=64, seed=1, progr
     Raises:
         Error: for a mesh without volume, or an option out of its range.
     """
-    return _core.decompose(solid, float(threshold), int(max_parts), int(max_vertices), int(seed),
-                           reporter(progress))
+    return cast("tuple[list[Mesh], DecompositionFacts]", _core.decompose(
+        solid, float(threshold), int(max_parts), int(max_vertices), int(seed), reporter(progress)))
 
 
-def mass_properties(mesh, density, wall_thickness=None, sheet=False):
+def mass_properties(mesh: Mesh, density: float, wall_thickness: float | None = None,
+                    sheet: bool = False) -> MassProperties:
     """Computes volume, mass, centre of mass and inertia, exact for a polyhedron.
 
     Args:

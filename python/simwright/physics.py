@@ -1,16 +1,23 @@
 """Sizes, masses and contact parameters of household objects by category."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
 from . import _core
+
+if TYPE_CHECKING:
+    from ._types import PhysicalParameters
 
 __all__ = ["categories", "sample"]
 
 
-def categories():
+def categories() -> list[str]:
     """Returns the names of the categories of the knowledge base."""
     return _core.categories()
 
 
-def sample(category, seed=1):
+def sample(category: str, seed: int = 1) -> PhysicalParameters:
     """Samples the physical parameters of an object of a category.
 
     Args:
@@ -25,4 +32,4 @@ def sample(category, seed=1):
     Raises:
         Error: if no category is near, naming the nearest ones.
     """
-    return _core.sample_parameters(str(category), int(seed))
+    return cast("PhysicalParameters", _core.sample_parameters(str(category), int(seed)))

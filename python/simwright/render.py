@@ -1,16 +1,26 @@
 """Images of meshes, and the differentiable renderer."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Iterable, cast
+
 import numpy as np
 
 from . import _core
 from ._arguments import array
 from ._core import TexturedMesh
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from ._types import FloatArray, Float32Array, Images
+
 __all__ = ["DifferentiableRenderer", "TexturedMesh", "camera", "orbit_camera", "render",
            "studio_light"]
 
 
-def camera(width, height, fx, fy, cx, cy, pose):
+def camera(width: int, height: int, fx: float, fy: float, cx: float, cy: float,
+           pose: ArrayLike) -> _core.Camera:
     """Returns a pinhole camera that looks along +z, x right, y down (OpenCV).
 
     Args:
@@ -28,7 +38,8 @@ def camera(width, height, fx, fy, cx, cy, pose):
                         array("pose", pose, (4, 4), np.float64))
 
 
-def orbit_camera(target, distance, elevation, azimuth, vertical_fov, width, height):
+def orbit_camera(target: ArrayLike, distance: float, elevation: float, azimuth: float,
+                 vertical_fov: float, width: int, height: int) -> _core.Camera:
     """Returns a camera that looks at a point.
 
     Args:
@@ -44,11 +55,13 @@ def orbit_camera(target, distance, elevation, azimuth, vertical_fov, width, heig
     Raises:
         Error: for an elevation of pi/2 and more, or sizes that are not positive.
     """
-    return _core.orbit_camera(array("target", target, (3,), np.float64), float(distance), float(elevation), float(azimuth),
-                              float(vertical_fov), int(width), int(height))
+    return _core.orbit_camera(array("target", target, (3,), np.float64), float(distance),
+                              float(elevation), float(azimuth), float(vertical_fov), int(width),
+                              int(height))
 
 
-def render(meshes, camera, samples_per_side=1, occlusion_rays=0):
+def render(meshes: TexturedMesh | _core.Mesh | Iterable[TexturedMesh | _core.Mesh],
+           camera: _core.Camera, samples_per_side: int = 1, occlusion_rays: int = 0) -> Images:
     """Renders meshes in the world's frame.
 
     Args:
@@ -67,11 +80,12 @@ def render(meshes, camera, samples_per_side=1, occlusion_rays=0):
     """
     if isinstance(meshes, (_core.TexturedMesh, _core.Mesh)):
         meshes = [meshes]
-    meshes = [TexturedMesh(mesh) if isinstance(mesh, _core.Mesh) else mesh for mesh in meshes]
-    return _core.render(meshes, camera, int(samples_per_side), int(occlusion_rays))
+    textured = [TexturedMesh(mesh) if isinstance(mesh, _core.Mesh) else mesh for mesh in meshes]
+    return cast("Images", _core.render(textured, camera, int(samples_per_side),
+                                       int(occlusion_rays)))
 
 
-def studio_light(key=(0.4, -0.5, 0.75)):
+def studio_light(key: ArrayLike = (0.4, -0.5, 0.75)) -> FloatArray:
     """Returns a light: (9, 3) float64, real spherical harmonics up to degree 2, linear RGB.
 
     Args:
@@ -99,8 +113,10 @@ class DifferentiableRenderer:
         Error: for an invalid mesh, or colours, texture and UVs that do not fit it.
     """
 
-    def __init__(self, mesh, colors=None, texture=None, corner_uvs=None, lit=False,
-                 smooth_normals=True, render_normals=False, samples_per_side=2, edge_samples=4000):
+    def __init__(self, mesh: _core.Mesh, colors: ArrayLike | None = None,
+                 texture: ArrayLike | None = None, corner_uvs: ArrayLike | None = None,
+                 lit: bool = False, smooth_normals: bool = True, render_normals: bool = False,
+                 samples_per_side: int = 2, edge_samples: int = 4000) -> None:
         if colors is not None:
             colors = array("colors", colors, (len(mesh.vertices), 3), np.float64)
         if texture is not None:
@@ -111,23 +127,23 @@ class DifferentiableRenderer:
             mesh, colors, texture, corner_uvs, bool(lit), bool(smooth_normals), bool(render_normals),
             int(samples_per_side), int(edge_samples))
 
-    def set_vertices(self, vertices):
+    def set_vertices(self, vertices: ArrayLike) -> None:
         """Sets the vertices (N, 3), m, that the next image uses."""
         self._renderer.set_vertices(array("vertices", vertices, (None, 3), np.float64))
 
-    def set_colors(self, colors):
+    def set_colors(self, colors: ArrayLike) -> None:
         """Sets the vertex colours (N, 3)."""
         self._renderer.set_colors(array("colors", colors, (None, 3), np.float64))
 
-    def set_texture(self, texture):
+    def set_texture(self, texture: ArrayLike) -> None:
         """Sets the texture (H, W, 3)."""
         self._renderer.set_texture(array("texture", texture, (None, None, 3), np.float32))
 
-    def set_light(self, radiance):
+    def set_light(self, radiance: ArrayLike) -> None:
         """Sets the light (9, 3), as ``studio_light`` returns it."""
         self._renderer.set_light(array("radiance", radiance, (9, 3), np.float64))
 
-    def render(self, camera, seed=0):
+    def render(self, camera: _core.Camera, seed: int = 0) -> dict[str, Float32Array]:
         """Renders an image: means over each pixel, premultiplied by coverage.
 
         Returns:
@@ -136,7 +152,9 @@ class DifferentiableRenderer:
         """
         return self._renderer.render(camera, int(seed))
 
-    def backward(self, color=None, mask=None, depth=None, normal=None):
+    def backward(self, color: ArrayLike | None = None, mask: ArrayLike | None = None,
+                 depth: ArrayLike | None = None,
+                 normal: ArrayLike | None = None) -> dict[str, NDArray[Any]]:
         """Returns the gradients of L, given dL/d(image) of the last image's buffers.
 
         Returns:
@@ -152,6 +170,6 @@ class DifferentiableRenderer:
             for name, gradient in given.items()))
 
     @property
-    def welded(self):
+    def welded(self) -> list[int]:
         """(N) for each vertex the first vertex at the same position: move those together."""
         return self._renderer.welded

@@ -1,6 +1,13 @@
 """Reward programs: a restricted Python, compiled and run over batches of environments."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Iterable, Mapping
+
 from . import _core
+
+if TYPE_CHECKING:
+    from ._types import Path, RewardInput
 
 __all__ = ["Program", "compile"]
 
@@ -20,19 +27,20 @@ class Program:
         findings (list of Finding): what the compiler has to say.
     """
 
-    def __init__(self, program):
+    def __init__(self, program: _core.RewardProgram) -> None:
         self._program = program
-        self.entry = program.entry
-        self.inputs = program.slots
-        self.has_success = program.has_success
-        self.operations = program.operations
-        self.findings = program.findings
+        self.entry: str = program.entry
+        self.inputs: list[RewardInput] = program.slots
+        self.has_success: bool = program.has_success
+        self.operations: int = program.operations
+        self.findings: list[_core.Finding] = program.findings
         self._keys = {slot["key"]: slot for slot in self.inputs}
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Program({self.entry}, reads {', '.join(self._keys) or 'nothing'})"
 
-    def __call__(self, inputs=None, count=None, **parameters):
+    def __call__(self, inputs: Mapping[str, Any] | None = None, count: int | None = None,
+                 **parameters: Any) -> tuple[Any, Any, dict[str, Any]]:
         """Computes rewards.
 
         Args:
@@ -88,7 +96,8 @@ class Program:
         return array if array.ndim > 0 else array.reshape(1)
 
 
-def compile(source, assets=(), entry="", shapes=None):
+def compile(source: str, assets: Iterable[Path] = (), entry: str = "",
+            shapes: Mapping[str, Iterable[int]] | None = None) -> Program:
     """Parses, checks and compiles a reward function; Python never runs it.
 
     Args:
@@ -104,5 +113,5 @@ def compile(source, assets=(), entry="", shapes=None):
     Raises:
         Error: for a fault, with its line and column.
     """
-    shapes = {name: [int(side) for side in shape] for name, shape in (shapes or {}).items()}
-    return Program(_core.compile_reward(source, [str(asset) for asset in assets], entry, shapes))
+    sides = {name: [int(side) for side in shape] for name, shape in (shapes or {}).items()}
+    return Program(_core.compile_reward(source, [str(asset) for asset in assets], entry, sides))

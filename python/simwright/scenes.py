@@ -1,21 +1,28 @@
 """Cluttered scenes: generated, sampled from diffusion models, made feasible, steered, exported."""
 
+from __future__ import annotations
+
 from os import fspath
+from typing import TYPE_CHECKING, Iterable, cast
 
 from . import _core
 from ._core import AssetSet, SceneObject
 from ._progress import reporter
 
+if TYPE_CHECKING:
+    from ._types import (FeasibleScene, Names, Path, Paths, ProgressArgument, Report,
+                         WorldFormat)
+
 __all__ = ["AssetSet", "SceneObject", "complete", "evaluate", "export", "generate", "make_feasible",
            "read", "rearrange", "sample", "total_penetration", "types"]
 
 
-def types():
+def types() -> list[str]:
     """Returns the names of the scene types."""
     return _core.scene_types()
 
 
-def read(path, first=0, count=-1):
+def read(path: Path, first: int = 0, count: int = -1) -> list[list[SceneObject]]:
     """Reads scenes of a dataset.
 
     Args:
@@ -32,7 +39,8 @@ def read(path, first=0, count=-1):
     return _core.read_scenes(fspath(path), int(first), int(count))
 
 
-def make_feasible(objects, assets, min_objects=3, lowering=0.0, progress=None):
+def make_feasible(objects: Iterable[SceneObject], assets: AssetSet, min_objects: int = 3,
+                  lowering: float = 0.0, progress: ProgressArgument = None) -> FeasibleScene:
     """Resolves the penetrations of a scene and lets it settle; drops what falls.
 
     Args:
@@ -49,22 +57,23 @@ def make_feasible(objects, assets, min_objects=3, lowering=0.0, progress=None):
     Raises:
         Error: for a category without an asset.
     """
-    return _core.make_feasible(list(objects), assets, int(min_objects), float(lowering),
-                               reporter(progress))
+    return cast("FeasibleScene", _core.make_feasible(
+        list(objects), assets, int(min_objects), float(lowering), reporter(progress)))
 
 
-def total_penetration(objects, assets):
+def total_penetration(objects: Iterable[SceneObject], assets: AssetSet) -> float:
     """Returns the sum of the depths (m) of all interpenetrating pairs of a scene's objects."""
     return _core.total_penetration(list(objects), assets)
 
 
-def _paths(paths):
+def _paths(paths: Paths) -> list[str]:
     if isinstance(paths, (str, bytes)) or hasattr(paths, "__fspath__"):
         paths = [paths]
     return [fspath(path) for path in paths]
 
 
-def generate(type, output, count=100, assets=(), seed=1, raw=False, progress=None):
+def generate(type: str, output: Path, count: int = 100, assets: Paths = (), seed: int = 1,
+             raw: bool = False, progress: ProgressArgument = None) -> Report:
     """Samples scenes of a grammar, makes them feasible and writes a dataset.
 
     Args:
@@ -82,12 +91,14 @@ def generate(type, output, count=100, assets=(), seed=1, raw=False, progress=Non
     Raises:
         Error: for an unknown type, or an output that contains other scenes.
     """
-    return _core.generate_scenes(type, int(count), fspath(output), _paths(assets), int(seed),
-                                 bool(raw), reporter(progress))
+    return cast("Report", _core.generate_scenes(
+        type, int(count), fspath(output), _paths(assets), int(seed), bool(raw),
+        reporter(progress)))
 
 
-def sample(output, weights="", type="", count=16, prompts=(), steps=0, guidance=0.0, assets=(),
-           seed=1, raw=False, force=False, progress=None):
+def sample(output: Path, weights: Path = "", type: str = "", count: int = 16, prompts: Names = (),
+           steps: int = 0, guidance: float = 0.0, assets: Paths = (), seed: int = 1,
+           raw: bool = False, force: bool = False, progress: ProgressArgument = None) -> Report:
     """Samples scenes from a diffusion model, makes them feasible and writes a dataset.
 
     Args:
@@ -112,13 +123,14 @@ def sample(output, weights="", type="", count=16, prompts=(), steps=0, guidance=
         Error: for a file without weights, a prompt that cannot be read, or an existing output.
     """
     prompts = [prompts] if isinstance(prompts, str) else list(prompts)
-    return _core.sample_scenes(fspath(output), fspath(weights), type, int(count), prompts, int(steps),
-                               float(guidance), _paths(assets), int(seed), bool(raw), bool(force),
-                               reporter(progress))
+    return cast("Report", _core.sample_scenes(
+        fspath(output), fspath(weights), type, int(count), prompts, int(steps), float(guidance),
+        _paths(assets), int(seed), bool(raw), bool(force), reporter(progress)))
 
 
-def complete(source, output, count=-1, prompt="", scenes="", weights="", type="", seed=1, force=False,
-             progress=None):
+def complete(source: Path, output: Path, count: int = -1, prompt: str = "", scenes: str = "",
+             weights: Path = "", type: str = "", seed: int = 1, force: bool = False,
+             progress: ProgressArgument = None) -> Report:
     """Adds objects to scenes, in which everything stays.
 
     Args:
@@ -135,12 +147,14 @@ def complete(source, output, count=-1, prompt="", scenes="", weights="", type=""
     Raises:
         Error: for a source, a prompt or a model that does not fit.
     """
-    return _core.steer_scenes(fspath(source), fspath(output), False, scenes, int(count), prompt, [],
-                              fspath(weights), type, int(seed), bool(force), reporter(progress))
+    return cast("Report", _core.steer_scenes(
+        fspath(source), fspath(output), False, scenes, int(count), prompt, [], fspath(weights),
+        type, int(seed), bool(force), reporter(progress)))
 
 
-def rearrange(source, output, keep=(), scenes="", weights="", type="", seed=1, force=False,
-              progress=None):
+def rearrange(source: Path, output: Path, keep: Iterable[str] = (), scenes: str = "",
+              weights: Path = "", type: str = "", seed: int = 1, force: bool = False,
+              progress: ProgressArgument = None) -> Report:
     """Finds new poses for the objects of scenes.
 
     Args:
@@ -155,11 +169,13 @@ def rearrange(source, output, keep=(), scenes="", weights="", type="", seed=1, f
     Raises:
         Error: for a source or a model that does not fit.
     """
-    return _core.steer_scenes(fspath(source), fspath(output), True, scenes, -1, "", list(keep),
-                              fspath(weights), type, int(seed), bool(force), reporter(progress))
+    return cast("Report", _core.steer_scenes(
+        fspath(source), fspath(output), True, scenes, -1, "", list(keep), fspath(weights), type,
+        int(seed), bool(force), reporter(progress)))
 
 
-def evaluate(type="", data="", weights="", samples="", count=1000, seed=1, progress=None):
+def evaluate(type: str = "", data: Path = "", weights: Path = "", samples: Path = "",
+             count: int = 1000, seed: int = 1, progress: ProgressArgument = None) -> Report:
     """Compares samples of a model with held-out scenes.
 
     Args:
@@ -177,11 +193,14 @@ def evaluate(type="", data="", weights="", samples="", count=1000, seed=1, progr
     Raises:
         Error: if there is nothing to evaluate, or a file is damaged.
     """
-    return _core.evaluate_scenes(type, fspath(data), fspath(weights), fspath(samples), int(count),
-                                 int(seed), reporter(progress))
+    return cast("Report", _core.evaluate_scenes(
+        type, fspath(data), fspath(weights), fspath(samples), int(count), int(seed),
+        reporter(progress)))
 
 
-def export(dataset, output, scenes="", formats=("mjcf",), check=False, force=False, progress=None):
+def export(dataset: Path, output: Path, scenes: str = "",
+           formats: WorldFormat | Iterable[WorldFormat] = ("mjcf",), check: bool = False,
+           force: bool = False, progress: ProgressArgument = None) -> Report:
     """Writes scenes as worlds for simulators.
 
     Args:
@@ -199,6 +218,7 @@ def export(dataset, output, scenes="", formats=("mjcf",), check=False, force=Fal
     Raises:
         Error: for an unknown format or scene, or an existing output.
     """
-    formats = {formats} if isinstance(formats, str) else set(formats)
-    return _core.export_worlds(fspath(dataset), fspath(output), scenes, formats, bool(check),
-                               bool(force), reporter(progress))
+    chosen = {formats} if isinstance(formats, str) else set(formats)
+    return cast("Report", _core.export_worlds(
+        fspath(dataset), fspath(output), scenes, chosen, bool(check), bool(force),
+        reporter(progress)))

@@ -1,22 +1,28 @@
 """Shipped and trained policies: loading, acting, measuring."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING, cast
 
 from . import _core
 from ._cells import cell_tasks
 from ._core import Policy, wilson_interval
 from ._progress import reporter
 
+if TYPE_CHECKING:
+    from . import _types
+
 __all__ = ["Policy", "evaluate", "load", "names", "wilson_interval"]
 
 
-def names():
+def names() -> list[str]:
     """Returns the names of the shipped skills."""
     return [cell["name"] for cell in _core.cells()]
 
 
-def _models():
+def _models() -> Path:
     folder = os.environ.get("SIMWRIGHT_MODELS") or _core.models_folder()
     if not str(folder):
         raise _core.Error("models: the folder of the shipped weights is missing "
@@ -24,11 +30,11 @@ def _models():
     return Path(folder)
 
 
-def load(name_or_path):
+def load(name_or_path: _types.Path) -> Policy:
     """Loads a policy.
 
     Args:
-        name_or_path (str): a name of ``names()``, or the path of a policy file.
+        name_or_path (str or path): a name of ``names()``, or the path of a policy file.
 
     Returns:
         Policy: ``act(observations)`` maps (n, O) float32 to (n, A) float32 in [-1, 1].
@@ -45,7 +51,9 @@ def load(name_or_path):
                       "of a policy file)")
 
 
-def evaluate(skill, episodes=100, seed=1, policy="shipped", split="unseen", progress=None):
+def evaluate(skill: str, episodes: int = 100, seed: int = 1,
+             policy: Policy | _types.PolicyName = "shipped", split: _types.Split = "unseen",
+             progress: _types.ProgressArgument = None) -> _types.Evaluation:
     """Measures the success of a policy on instances of its kind.
 
     Args:
@@ -68,11 +76,15 @@ def evaluate(skill, episodes=100, seed=1, policy="shipped", split="unseen", prog
     settings = _core.TaskSettings()
     cell = next(entry for entry in _core.cells() if entry["name"] == skill)
     settings.robot = cell["robot"]
+    acting: Policy | None
     if isinstance(policy, str):
         if policy not in ("shipped", "expert"):
             raise _core.Error(f"policy: is '{policy}' (give shipped, expert or a Policy)")
-        policy = load(skill) if policy == "shipped" else None
-    if policy is not None:
-        settings.action_space = policy.metadata.get("action", "focus")
+        acting = load(skill) if policy == "shipped" else None
+    else:
+        acting = policy
+    if acting is not None:
+        settings.action_space = acting.metadata.get("action", "focus")
     task = _core.PreparedTask(str(file), ["*"], settings)
-    return _core.evaluate(task, 0, policy, int(episodes), int(seed), report)
+    return cast("_types.Evaluation",
+                _core.evaluate(task, 0, acting, int(episodes), int(seed), report))

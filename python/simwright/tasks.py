@@ -1,29 +1,37 @@
 """Tasks for robots: generated for assets, trained, rolled out and exported."""
 
+from __future__ import annotations
+
 from os import fspath
+from typing import TYPE_CHECKING, Any, Iterable, cast
 
 from . import _core
 from ._progress import reporter
 
+if TYPE_CHECKING:
+    from ._types import (Names, Path, Paths, ProgressArgument, Report, RunActionSpace,
+                         TrajectoryFormat)
+
 __all__ = ["export", "make", "read", "rollout", "train"]
 
 
-def read(file):
+def read(file: Path) -> dict[str, Any]:
     """Returns the contents of a tasks.json as dicts and lists (docs/formats.md)."""
     import json
 
     try:
         with open(file, encoding="utf-8") as stream:
-            return json.load(stream)
+            return cast("dict[str, Any]", json.load(stream))
     except (OSError, ValueError) as error:
         raise _core.Error(f"{fspath(file)}: cannot be read ({error})") from None
 
 
-def make(assets, output, count=0, seed=1, force=False, progress=None):
+def make(assets: Paths, output: Path, count: int = 0, seed: int = 1, force: bool = False,
+         progress: ProgressArgument = None) -> Report:
     """Generates the tasks that are possible with assets, by rules, and verifies each subtask.
 
     Args:
-        assets (list of str): PATH or NAME=PATH, asset folders or URDFs.
+        assets (str, path or list of them): PATH or NAME=PATH, asset folders or URDFs.
         output (path): the tasks.json to write; a page goes beside it.
         count (int): most tasks; 0: five per asset.
         seed (int): of the choice.
@@ -38,12 +46,15 @@ def make(assets, output, count=0, seed=1, force=False, progress=None):
     """
     if isinstance(assets, str) or hasattr(assets, "__fspath__"):
         assets = [assets]
-    return _core.make_tasks([fspath(asset) for asset in assets], fspath(output), int(count), int(seed),
-                            bool(force), reporter(progress))
+    return cast("Report", _core.make_tasks(
+        [fspath(asset) for asset in assets], fspath(output), int(count), int(seed), bool(force),
+        reporter(progress)))
 
 
-def train(file, task, output, robot="panda", action_space="focus", num_envs=64, samples=2_000_000,
-          minutes=30.0, imitated_samples=65_536, episodes=200, seed=1, resume=False, progress=None):
+def train(file: Path, task: Names, output: Path, robot: str = "panda",
+          action_space: RunActionSpace = "focus", num_envs: int = 64, samples: int = 2_000_000,
+          minutes: float = 30.0, imitated_samples: int = 65_536, episodes: int = 200,
+          seed: int = 1, resume: bool = False, progress: ProgressArgument = None) -> Report:
     """Trains one policy per subtask in Bullet, as ``simwright train`` does.
 
     Args:
@@ -68,12 +79,14 @@ def train(file, task, output, robot="panda", action_space="focus", num_envs=64, 
         Error: for an unknown task or a folder with another run.
     """
     patterns = [task] if isinstance(task, str) else list(task)
-    return _core.train_task(fspath(file), patterns, fspath(output), robot, action_space, int(num_envs),
-                            int(samples), float(minutes), int(imitated_samples), int(episodes),
-                            int(seed), bool(resume), reporter(progress))
+    return cast("Report", _core.train_task(
+        fspath(file), patterns, fspath(output), robot, action_space, int(num_envs), int(samples),
+        float(minutes), int(imitated_samples), int(episodes), int(seed), bool(resume),
+        reporter(progress)))
 
 
-def rollout(run, episodes=100, seed=1, on="", tasks=(), pictures="", progress=None):
+def rollout(run: Path, episodes: int = 100, seed: int = 1, on: Path = "", tasks: Iterable[str] = (),
+            pictures: Path = "", progress: ProgressArgument = None) -> Report:
     """Measures the success rate of a training run.
 
     Args:
@@ -91,11 +104,12 @@ def rollout(run, episodes=100, seed=1, on="", tasks=(), pictures="", progress=No
     Raises:
         Error: if the folder has no run, or ``on`` does not match it.
     """
-    return _core.rollout(fspath(run), int(episodes), int(seed), fspath(on), list(tasks),
-                         fspath(pictures), reporter(progress))
+    return cast("Report", _core.rollout(fspath(run), int(episodes), int(seed), fspath(on),
+                                        list(tasks), fspath(pictures), reporter(progress)))
 
 
-def export(run, output, format="ros2", episodes=1, seed=1, force=False, progress=None):
+def export(run: Path, output: Path, format: TrajectoryFormat = "ros2", episodes: int = 1,
+           seed: int = 1, force: bool = False, progress: ProgressArgument = None) -> Report:
     """Exports trajectories or demonstrations of a training run, each verified by replay.
 
     Args:
@@ -113,5 +127,5 @@ def export(run, output, format="ros2", episodes=1, seed=1, force=False, progress
     Raises:
         Error: for a file extension that does not match the format.
     """
-    return _core.export_run(fspath(run), fspath(output), format, int(episodes), int(seed), bool(force),
-                            reporter(progress))
+    return cast("Report", _core.export_run(fspath(run), fspath(output), format, int(episodes),
+                                           int(seed), bool(force), reporter(progress)))
