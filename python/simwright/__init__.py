@@ -49,7 +49,7 @@ threads = _core.threads
 try:
     import gymnasium as _gymnasium
 except ImportError:
-    _gymnasium = None
+    _gymnasium = None  # type: ignore[assignment]
 if _gymnasium is not None:
     from .envs import register_envs as _register_envs
 

@@ -1,11 +1,19 @@
 """Conversion of arguments to arrays, with errors that name them."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from . import _core
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
-def array(name, value, shape, dtype):
+
+def array(name: str, value: ArrayLike, shape: tuple[int | None, ...],
+          dtype: type[np.generic]) -> NDArray[Any]:
     """Returns `value` as a C-contiguous array.
 
     Args:
@@ -39,7 +47,7 @@ def array(name, value, shape, dtype):
     return converted
 
 
-def mesh(vertices, triangles):
+def mesh(vertices: ArrayLike, triangles: ArrayLike) -> _core.Mesh:
     """Makes a mesh of arrays or lists.
 
     Args:

@@ -1,17 +1,23 @@
 """The task files of the shipped cells and long tasks, made once and kept in a cache folder."""
 
+from __future__ import annotations
+
 import contextlib
 import fcntl
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING, Iterator
 
 from . import _core
+
+if TYPE_CHECKING:
+    from ._types import Reporter, Split
 
 # Training uses instances from the first seed on, evaluation from the second.
 SPLIT_SEEDS = {"train": 1, "unseen": 301}
 
 
-def cache_folder():
+def cache_folder() -> Path:
     """Returns $SIMWRIGHT_CACHE, else the user's cache folder for this version."""
     told = os.environ.get("SIMWRIGHT_CACHE")
     if told:
@@ -21,7 +27,7 @@ def cache_folder():
 
 
 @contextlib.contextmanager
-def _locked(folder):
+def _locked(folder: Path) -> Iterator[None]:
     """Waits for other processes that make the same folder."""
     folder.parent.mkdir(parents=True, exist_ok=True)
     with open(folder.with_name(folder.name + ".lock"), "w") as lock:
@@ -29,12 +35,13 @@ def _locked(folder):
         yield
 
 
-def example_photo():
+def example_photo() -> Path:
     """Returns the photo of the cell pick_up_photo."""
     return Path(__file__).absolute().parent / "data" / "coffee.png"
 
 
-def cell_tasks(cell, split="train", instances=None, report=None):
+def cell_tasks(cell: str, split: Split = "train", instances: int | None = None,
+               report: Reporter | None = None) -> Path:
     """Returns the tasks.json of a cell, made at the first call (seconds to a minute)."""
     known = {entry["name"]: entry for entry in _core.cells()}
     if cell not in known:
@@ -51,7 +58,7 @@ def cell_tasks(cell, split="train", instances=None, report=None):
                                      str(folder), report)
 
 
-def long_task(name, report=None):
+def long_task(name: str, report: Reporter | None = None) -> Path:
     """Returns the tasks.json of a shipped task of several subtasks."""
     known = [entry["name"] for entry in _core.long_tasks()]
     if name not in known:

@@ -1,26 +1,36 @@
 """LeRobotDataset v3, written by the package lerobot."""
 
+from __future__ import annotations
+
 import contextlib
 import copy
 import importlib
 import os
 import shutil
 import warnings
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any, Iterable, Iterator
 
 import numpy as np
 
 from . import _core
 from ._output import Totals, need, placed
 
+if TYPE_CHECKING:
+    from ._types import ImageArray, Path, RecordedActions, WrittenTotals
+    from .demonstrations import Episode
+
 _FRAMES_PER_SECOND = 20
 
 
-def write_lerobot(root, episodes, repo_id="simwright/demonstrations", fps=_FRAMES_PER_SECOND,
-                  videos=True, actions="joint_targets"):
+def write_lerobot(root: Path, episodes: Iterable[Episode],
+                  repo_id: str = "simwright/demonstrations", fps: int = _FRAMES_PER_SECOND,
+                  videos: bool = True, actions: RecordedActions = "joint_targets",
+                  ) -> WrittenTotals:
     """Writes demonstrations as a LeRobotDataset.
 
     Args:
-        root: the folder; it must not exist.
+        root (path): the folder; it must not exist.
         episodes: iterable of Episode with equal cameras and robots.
         repo_id (str): the data set's name; nothing is uploaded.
         fps (int): 20, as recorded.
@@ -67,7 +77,7 @@ def write_lerobot(root, episodes, repo_id="simwright/demonstrations", fps=_FRAME
 
 
 @contextlib.contextmanager
-def _quiet():
+def _quiet() -> Iterator[None]:
     """Leaves out what the encoder, the tables' bars and numpy's notice about labels print."""
     datasets = importlib.import_module("datasets")
     shown = not datasets.are_progress_bars_disabled()
@@ -82,13 +92,13 @@ def _quiet():
             datasets.enable_progress_bars()
 
 
-def _remove_empty(folder):
+def _remove_empty(folder: FilePath) -> None:
     """Removes a folder without files: the encoder leaves those of the images that it has read."""
     if folder.is_dir() and not any(path.is_file() for path in folder.rglob("*")):
         shutil.rmtree(folder)
 
 
-def _stop_threads(dataset):
+def _stop_threads(dataset: Any) -> None:
     """Ends the threads that write images, which would write into a folder that is removed."""
     stop = getattr(dataset, "stop_image_writer", None)
     writer = getattr(dataset, "writer", None)
@@ -97,14 +107,14 @@ def _stop_threads(dataset):
         stop()
 
 
-def _pictures(episode):
+def _pictures(episode: Episode) -> dict[str, ImageArray]:
     """Returns the colour images by camera; the format has no other kinds."""
     return {name: images for name, images in episode.images.items() if images.ndim == 4
             and images.dtype == np.uint8}
 
 
-def _features(episode, actions, videos):
-    def numbers(size, names):
+def _features(episode: Episode, actions: RecordedActions, videos: bool) -> dict[str, Any]:
+    def numbers(size: int, names: list[str] | None) -> dict[str, Any]:
         return {"dtype": "float32", "shape": (size,), "names": names}
 
     joints = list(episode.joint_names)
@@ -129,7 +139,7 @@ def _features(episode, actions, videos):
     return features
 
 
-def _frames(episode, actions):
+def _frames(episode: Episode, actions: RecordedActions) -> Iterator[dict[str, Any]]:
     """Yields the T frames of an episode."""
     pictures = _pictures(episode)
     own = np.concatenate([episode.joints, episode.openings[:, None]], axis=1).astype(np.float32)

@@ -1,14 +1,23 @@
 """MCAP files of ROS 2 messages."""
 
+from __future__ import annotations
+
 import json
 import struct
 import zlib
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 import numpy as np
 
 from ._output import Totals, need, placed
 from ._robomimic import xyzw
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from . import _types
+    from .demonstrations import Episode
 
 _GAP_SECONDS = 1.0
 _RULE = "\n" + "=" * 80 + "\n"
@@ -18,7 +27,7 @@ _VECTOR = "float64 x\nfloat64 y\nfloat64 z\n"
 _QUATERNION = "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"
 
 
-def _definition(text, **parts):
+def _definition(text: str, **parts: Any) -> str:
     """Joins a message definition and those that it needs, as ros2msg schemas do."""
     names = {"time": ("builtin_interfaces/Time", _TIME), "header": ("std_msgs/Header", _HEADER),
              "vector": ("geometry_msgs/Vector3", _VECTOR),
@@ -53,13 +62,13 @@ _SCHEMAS = {
 }
 
 
-def png(image):
+def png(image: NDArray[np.uint8]) -> bytes:
     """Returns the bytes of a PNG of an image (H, W, 3) uint8 RGB."""
     height, width, _ = image.shape
     rows = np.zeros((height, 1 + 3 * width), np.uint8)  # the first byte of a row: no filter
     rows[:, 1:] = image.reshape(height, 3 * width)
 
-    def chunk(kind, body):
+    def chunk(kind: bytes, body: bytes) -> bytes:
         return (struct.pack(">I", len(body)) + kind + body
                 + struct.pack(">I", zlib.crc32(kind + body)))
 
@@ -68,12 +77,13 @@ def png(image):
             + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b""))
 
 
-def write_mcap(path, episodes, start_seconds=0.0):
+def write_mcap(path: _types.Path, episodes: Iterable[Episode],
+               start_seconds: float = 0.0) -> _types.WrittenTotals:
     """Writes demonstrations as MCAP files of ROS 2 messages, for ``ros2 bag`` and Foxglove.
 
     Args:
-        path: NAME.mcap, one file in which a second separates the episodes, or a folder, which must
-            not exist, of one file for each episode (episode_000001.mcap ...).
+        path (path): NAME.mcap, one file in which a second separates the episodes, or a folder,
+            which must not exist, of one file for each episode (episode_000001.mcap ...).
         episodes: iterable of Episode.
         start_seconds (float): stamp of the first frame, s.
 
@@ -108,12 +118,12 @@ def write_mcap(path, episodes, start_seconds=0.0):
 class _File:
     """Writes the messages of episodes into an open file."""
 
-    def __init__(self, writer):
+    def __init__(self, writer: Any) -> None:
         self._writer = writer
-        self._schemas = {}
+        self._schemas: dict[str, Any] = {}
         self._time = 0
 
-    def write(self, episode, begin):
+    def write(self, episode: Episode, begin: float) -> None:
         """Writes an episode whose first frame has the stamp `begin`, s."""
         for step in range(len(episode) + 1):
             self._time = round((begin + float(episode.times[step])) * 1e9)
@@ -131,16 +141,16 @@ class _File:
             "robot": episode.robot, "seed": str(episode.seed), "index": str(episode.index),
             "success": str(episode.success).lower(), "legend": json.dumps(episode.legend)})
 
-    def _send(self, topic, kind, message):
+    def _send(self, topic: str, kind: str, message: dict[str, Any]) -> None:
         if kind not in self._schemas:
             self._schemas[kind] = self._writer.register_msgdef(kind, _SCHEMAS[kind])
         self._writer.write_message(topic, self._schemas[kind], message, self._time, self._time)
 
-    def _header(self, frame):
+    def _header(self, frame: str) -> dict[str, Any]:
         return {"stamp": {"sec": self._time // 10**9, "nanosec": self._time % 10**9},
                 "frame_id": frame}
 
-    def _write_state(self, episode, step):
+    def _write_state(self, episode: Episode, step: int) -> None:
         finger = 0.5 * float(episode.openings[step])
         fingers = [f"{_prefix(episode)}finger_joint{number}" for number in (1, 2)]
         self._joints("/joint_states", list(episode.joint_names) + fingers,
@@ -160,18 +170,18 @@ class _File:
         self._send("/tf", "tf2_msgs/msg/TFMessage",
                    {"transforms": [self._transform(*frame) for frame in frames]})
 
-    def _joints(self, topic, names, positions):
+    def _joints(self, topic: str, names: Sequence[str], positions: Sequence[float]) -> None:
         self._send(topic, "sensor_msgs/msg/JointState",
                    {"header": self._header(""), "name": names, "position": positions,
                     "velocity": [], "effort": []})
 
-    def _transform(self, parent, child, pose):
+    def _transform(self, parent: str, child: str, pose: _types.FloatArray) -> dict[str, Any]:
         quaternion = xyzw(pose[None, :3, :3])[0]
         return {"header": self._header(parent), "child_frame_id": child, "transform": {
             "translation": dict(zip("xyz", map(float, pose[:3, 3]))),
             "rotation": dict(zip("xyzw", map(float, quaternion)))}}
 
-    def _write_images(self, episode, step):
+    def _write_images(self, episode: Episode, step: int) -> None:
         for name, intrinsics in episode.intrinsics.items():
             if name not in episode.images:
                 continue
@@ -191,6 +201,6 @@ class _File:
                 "roi": whole})
 
 
-def _prefix(episode):
+def _prefix(episode: Episode) -> str:
     """Returns the prefix of the names of links: that of the Panda's, or none."""
     return "panda_" if episode.joint_names[0].startswith("panda_") else ""

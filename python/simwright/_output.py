@@ -1,15 +1,22 @@
 """Output of data sets: beside its destination, then renamed; and the extras that formats need."""
 
+from __future__ import annotations
+
 import contextlib
 import importlib
 import os
 import shutil
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Iterator
 
 from . import _core
 
+if TYPE_CHECKING:
+    from . import _types
+    from .demonstrations import Episode
 
-def need(module, extra):
+
+def need(module: str, extra: str) -> Any:
     """Returns an optional module.
 
     Raises:
@@ -24,7 +31,7 @@ def need(module, extra):
 
 
 @contextlib.contextmanager
-def placed(path, replaces):
+def placed(path: _types.Path, replaces: bool) -> Iterator[Path]:
     """Yields a path beside `path`; renames it to `path` where no exception is raised.
 
     Args:
@@ -54,16 +61,16 @@ def placed(path, replaces):
 class Totals:
     """Counts what was written; `report()` is what the writers return."""
 
-    def __init__(self, path):
+    def __init__(self, path: _types.Path) -> None:
         self._path = str(path)
         self.episodes = self.steps = self.successes = 0
 
-    def add(self, episode):
+    def add(self, episode: Episode) -> None:
         self.episodes += 1
         self.steps += len(episode)
         self.successes += int(episode.success)
 
-    def report(self):
+    def report(self) -> _types.WrittenTotals:
         if self.episodes == 0:
             raise _core.Error(f"{self._path}: there is no episode to write (give at least one)")
         return {"path": self._path, "episodes": self.episodes, "steps": self.steps,

@@ -1,19 +1,26 @@
 """The command ``python -m simwright.demonstrations``, which `simwright export` runs too."""
 
+from __future__ import annotations
+
 import argparse
 import json
 import sys
+from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 from . import _core, demonstrations, skills
 from ._output import need
 
+if TYPE_CHECKING:
+    from ._types import WrittenTotals
+
 # By format: the module that it needs, its extra, its writer.
-_FORMATS = {"lerobot": ("lerobot.datasets.lerobot_dataset", "lerobot", demonstrations.write_lerobot),
-            "mcap": ("mcap_ros2.writer", "mcap", demonstrations.write_mcap),
-            "robomimic": ("h5py", "robomimic", demonstrations.write_robomimic)}
+_FORMATS: dict[str, tuple[str, str, Callable[..., WrittenTotals]]] = {
+    "lerobot": ("lerobot.datasets.lerobot_dataset", "lerobot", demonstrations.write_lerobot),
+    "mcap": ("mcap_ros2.writer", "mcap", demonstrations.write_mcap),
+    "robomimic": ("h5py", "robomimic", demonstrations.write_robomimic)}
 
 
-def _parser():
+def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m simwright.demonstrations", description="Records demonstrations of a skill "
         "with camera images, for imitation learning (docs/demonstrations.md).",
@@ -41,9 +48,9 @@ def _parser():
     return parser
 
 
-def _write(told):
+def _write(told: argparse.Namespace) -> WrittenTotals:
     """Records and writes what the command tells; returns the writer's report."""
-    settings = {} if told.instances is None else {"instances": told.instances}
+    settings: dict[str, Any] = {} if told.instances is None else {"instances": told.instances}
     if told.skill in skills.names():
         settings["split"] = told.split
     module, extra, write = _FORMATS[told.format]
@@ -57,7 +64,7 @@ def _write(told):
                  **({} if told.format == "mcap" else {"actions": told.actions}))
 
 
-def main(arguments=None):
+def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; returns its exit code."""
     told = _parser().parse_args(arguments)
     try:

@@ -1,9 +1,16 @@
 """The tasks, settings and policies of a folder that ``simwright train`` wrote."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from . import _core
 
+if TYPE_CHECKING:
+    from ._types import Float32Array
 
-def environment_settings(run):
+
+def environment_settings(run: dict[str, Any]) -> dict[str, Any]:
     """Returns the arguments of the environment of a run.
 
     Args:
@@ -30,11 +37,11 @@ class RunPolicies:
         Error: where a subtask has no policy yet.
     """
 
-    def __init__(self, run):
+    def __init__(self, run: dict[str, Any]) -> None:
         self.metadata = {"action": run["action_space"]}
         self._policies = [_core.read_policy(subtask["policy"]) for subtask in run["subtasks"]]
 
-    def act(self, states):
+    def act(self, states: Float32Array) -> Float32Array:
         """Returns the actions (1, A) of states (1, O) of ``SkillEnv`` or ``LongTaskEnv``."""
         if len(self._policies) == 1:
             return self._policies[0].act(states)

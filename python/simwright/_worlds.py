@@ -1,5 +1,9 @@
 """What all environments share: their tasks, actions, images, and the end of their use."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Mapping, Sequence
+
 import numpy as np
 from gymnasium import spaces
 
@@ -7,6 +11,13 @@ from . import _core
 from . import cameras as _cameras
 from ._cells import cell_tasks
 from ._progress import reporter
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from ._types import (ActionSpace, Cameras, Float32Array, ImageArray, ImageKinds, ImageSize,
+                         Look, Names, Observation, Path, ProgressArgument, Range, RenderMode,
+                         Split)
 
 # robosuite's OSC_POSE moves by at most 0.05 m and 0.5 rad a step; 1 closes its gripper.
 _OSC_SETTINGS = {"reach": 0.2, "turn": 2.0, "delta_share": 0.25}
@@ -16,9 +27,11 @@ _RENDER_TARGET = (0.5, 0.1, 0.3)
 _ACTION_SPACES = ("focus", "guided", "delta", "osc_delta", "absolute", "joints", "joint_targets")
 
 
-def settings_of(action_space, robot, episode_seconds, finger_friction):
+def settings_of(action_space: ActionSpace, robot: str, episode_seconds: float | None,
+                finger_friction: Range | None) -> _core.TaskSettings:
     if action_space not in _ACTION_SPACES:
-        raise _core.Error(f"action_space: is '{action_space}' (give one of {', '.join(_ACTION_SPACES)})")
+        raise _core.Error(f"action_space: is '{action_space}' "
+                          f"(give one of {', '.join(_ACTION_SPACES)})")
     settings = _core.TaskSettings()
     settings.robot = robot
     settings.action_space = "delta" if action_space == "osc_delta" else action_space
@@ -30,18 +43,19 @@ def settings_of(action_space, robot, episode_seconds, finger_friction):
     return settings
 
 
-def task_file(cell, tasks, robot, split, instances, progress):
+def task_file(cell: str | None, tasks: Path | None, robot: str | None, split: Split,
+              instances: int | None, progress: ProgressArgument) -> tuple[str, str]:
     """Returns the task file and the robot of a cell, or of a task file."""
     if (cell is None) == (tasks is None):
         raise _core.Error("environment: needs a cell, or a tasks.json (give one of cell=, tasks=)")
-    if tasks is not None:
+    if cell is None:
         return str(tasks), robot or "panda"
-    known = next((entry for entry in _core.cells() if entry["name"] == cell), None)
     file = cell_tasks(cell, split, instances, reporter(progress))
+    known = next(entry for entry in _core.cells() if entry["name"] == cell)
     return str(file), robot or known["robot"]
 
 
-def numbers(actions, shape):
+def numbers(actions: ArrayLike, shape: tuple[int, ...] | None) -> Float32Array:
     """Returns actions as float32; raises Error for another shape or type."""
     try:
         array = np.asarray(actions)
@@ -55,7 +69,7 @@ def numbers(actions, shape):
     return array
 
 
-def fault_of(action, failed_physics, environment=None):
+def fault_of(action: Float32Array, failed_physics: bool, environment: int | None = None) -> str:
     """Returns why an episode was ended."""
     where = "" if environment is None else f" of environment {environment}"
     if failed_physics:
@@ -67,14 +81,21 @@ def fault_of(action, failed_physics, environment=None):
 class Worlds:
     """What the environments share: their images, and that they can be closed once."""
 
+    task: _core.PreparedTask
+    tasks_file: str
+    robot: str
+    action_space_name: ActionSpace
+    subtask_index: int | None
+    render_mode: str | None
     _open = True
-    _eyes = None  # EpisodeCameras
-    _seed = None
+    _eyes: _core.EpisodeCameras | None = None
+    _seed: int | None = None
     _index = 0
     _flip_gripper = False  # robosuite's sign
 
-    def _prepare(self, file, robot, patterns, action_space, subtask, episode_seconds,
-                 finger_friction):
+    def _prepare(self, file: str, robot: str, patterns: Names, action_space: ActionSpace,
+                 subtask: int | None, episode_seconds: float | None,
+                 finger_friction: Range | None) -> None:
         """Reads the tasks of a file; `subtask` is None where all are executed."""
         patterns = [patterns] if isinstance(patterns, str) else list(patterns)
         settings = settings_of(action_space, robot, episode_seconds, finger_friction)
@@ -83,30 +104,33 @@ class Worlds:
         self.subtask_index = subtask
         self._flip_gripper = action_space == "osc_delta"
 
-    def _require_open(self):
+    def _require_open(self) -> None:
         if not self._open:
             raise _core.Error("the environment: is closed (make a new one)")
 
-    def _number_episode(self, seed):
-        """Sets the next episode's seed and index: 0 of a new seed, else one more."""
+    def _number_episode(self, seed: int | None, random: np.random.Generator) -> tuple[int, int]:
+        """Returns the next episode's seed and index: 0 of a new seed, else one more."""
         if seed is not None or self._seed is None:
-            self._seed = int(self.np_random.integers(2**62)) if seed is None else int(seed)
+            self._seed = int(random.integers(2**62)) if seed is None else int(seed)
             self._index = 0
         else:
             self._index += 1
+        return self._seed, self._index
 
-    def _sent(self, actions):
+    def _sent(self, actions: Float32Array) -> Float32Array:
         """Returns the actions (..., A) in the compiled module's signs."""
         if not self._flip_gripper:
             return actions
         return np.concatenate([actions[..., :-1], -actions[..., -1:]], axis=-1)
 
-    def _choose_cameras(self, cameras, image_size, images, look, render_mode, render_size):
+    def _choose_cameras(self, cameras: Cameras, image_size: ImageSize, images: ImageKinds,
+                        look: Look, render_mode: RenderMode | None, render_size: tuple[int, int],
+                        ) -> dict[str, spaces.Box]:
         """Reads the arguments about cameras; returns the spaces of the images by key."""
         if render_mode not in (None, "rgb_array"):
             raise _core.Error(f"render_mode: is {render_mode!r} (give None or 'rgb_array')")
         self.render_mode = render_mode
-        self._kinds = [images] if isinstance(images, str) else list(images)
+        self._kinds: list[str] = [images] if isinstance(images, str) else list(images)
         specs = _cameras.chosen(cameras, image_size)
         self._seen = [spec.name for spec in specs]
         if "render" in self._seen or "state" in self._seen:
@@ -118,10 +142,11 @@ class Worlds:
                                                target=_RENDER_TARGET, mount="robot", width=width,
                                                height=height))
         self._look = _cameras.look(look)
-        shapes = {"rgb": (3,), "normal": (3,)}
-        limits = {"rgb": (0, 255, np.uint8), "depth": (0.0, np.inf, np.float32),
-                  "segmentation": (-1, np.iinfo(np.int32).max, np.int32),
-                  "normal": (-1.0, 1.0, np.float32)}
+        shapes: dict[str, tuple[int, ...]] = {"rgb": (3,), "normal": (3,)}
+        limits: dict[str, tuple[float, float, Any]] = {
+            "rgb": (0, 255, np.uint8), "depth": (0.0, np.inf, np.float32),
+            "segmentation": (-1, np.iinfo(np.int32).max, np.int32),
+            "normal": (-1.0, 1.0, np.float32)}
         found = {}
         for spec in specs:
             for kind in self._kinds:
@@ -134,19 +159,21 @@ class Worlds:
         return found
 
     @staticmethod
-    def _key(camera, kind):
+    def _key(camera: str, kind: str) -> str:
         return camera if kind == "rgb" else f"{camera}_{kind}"
 
-    def _make_cameras(self, subtask, evaluated):
+    def _make_cameras(self, subtask: int, evaluated: bool) -> _core.EpisodeCameras | None:
         """Returns the cameras of a subtask, or None if there are none."""
         if not self._specs:
             return None
         return _core.EpisodeCameras(self.task, subtask, evaluated, self._specs, self._look, 1)
 
-    def _space(self, state, images):
+    def _space(self, state: spaces.Box,
+               images: dict[str, spaces.Box]) -> spaces.Box | spaces.Dict:
         return spaces.Dict({"state": state, **images}) if images else state
 
-    def _with_images(self, state, images):
+    def _with_images(self, state: Float32Array,
+                     images: Mapping[str, Mapping[str, ImageArray]]) -> Observation:
         """Returns the observation of a state and the images by camera and kind."""
         if not self._seen:
             return state
@@ -156,7 +183,7 @@ class Worlds:
                 observation[self._key(camera, kind)] = pixels
         return observation
 
-    def _require_render(self):
+    def _require_render(self) -> None:
         self._require_open()
         if self.render_mode is None:
             raise _core.Error("render: the environment has no render_mode (make it with "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from os import fspath
+from os import PathLike, fspath
 from typing import TYPE_CHECKING, cast
 
 from . import _core
@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from ._types import (ImportOutcome, LibraryOutcome, LiftOutcome, LiftShape, Path, Paths,
                          ProgressArgument, Report, UpAxis)
 
-__all__ = ["ArticulatedAsset", "Asset", "Link", "check", "import_assets", "library", "library_kinds",
-           "lift", "read"]
+__all__ = ["ArticulatedAsset", "Asset", "Link", "check", "import_assets", "library",
+           "library_kinds", "lift", "read"]
 
 
 def read(folder: Path) -> Asset | ArticulatedAsset:
@@ -56,7 +56,7 @@ def import_assets(inputs: Paths, output: Path, category: str = "", up: UpAxis = 
     Raises:
         Error: for an input that does not exist or holds nothing to import, or an existing output.
     """
-    if isinstance(inputs, (str, bytes)) or hasattr(inputs, "__fspath__"):
+    if isinstance(inputs, (str, bytes, PathLike)):
         inputs = [inputs]
     return _core.import_assets([fspath(path) for path in inputs], fspath(output), category, up,
                                float(unit), float(height), int(seed), bool(check), bool(force),

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 import torch
 
 from . import _core
-from .render import DifferentiableRenderer
+
+if TYPE_CHECKING:
+    from .render import DifferentiableRenderer
 
 __all__ = ["render"]
 

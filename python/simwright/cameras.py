@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -58,8 +58,9 @@ def camera(name: str, pose: ArrayLike | None = None, position: ArrayLike | None 
     if (pose is None) == (position is None or target is None):
         raise _core.Error(f"camera '{name}': needs a pose, or a position and a target")
     if pose is None:
-        pose = _core.look_at(*(array(what, value, (3,), np.float64) for what, value in
-                               (("position", position), ("target", target), ("up", up))))
+        given = {"position": position, "target": target, "up": up}
+        pose = _core.look_at(*(array(what, cast("ArrayLike", value), (3,), np.float64)
+                               for what, value in given.items()))
     if intrinsics is not None:
         intrinsics = [float(number) for number in array("intrinsics", intrinsics, (4,), np.float64)]
     return CameraSpec(str(name), str(mount), array("pose", pose, (4, 4), np.float64), int(width),
@@ -93,7 +94,8 @@ def look(value: Look = None) -> LookRanges:
 
 def chosen(cameras: Cameras, size: ImageSize) -> list[CameraSpec]:
     """Returns the specs of names and specs; "front" and "wrist" get `size` pixels a side."""
-    width, height = (size, size) if np.isscalar(size) else size
+    sides: Any = (size, size) if np.isscalar(size) else size
+    width, height = sides
     known = defaults(width, height)
     specs = []
     for one in [cameras] if isinstance(cameras, (str, CameraSpec)) else list(cameras):

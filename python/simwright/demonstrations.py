@@ -11,11 +11,14 @@
 one in memory. docs/demonstrations.md lists the keys of each format.
 """
 
+from __future__ import annotations
+
 import dataclasses
 import json
 import re
 import sys
 import time
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Sequence, cast
 
 import numpy as np
 
@@ -25,6 +28,14 @@ from ._lerobot import write_lerobot
 from ._mcap import write_mcap
 from ._progress import reporter
 from ._robomimic import write_robomimic
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from ._types import (Acting, Cameras, Description, FloatArray, Float32Array, ImageArray,
+                         ImageKinds, ImageSize, Intrinsics, Keep, Look, ObjectTrack, Path,
+                         PolicyName, ProgressArgument, RecordedActions, Reporter)
+    from .envs import LongTaskEnv, SkillEnv
 
 __all__ = ["Episode", "describe", "record", "write_lerobot", "write_mcap", "write_robomimic"]
 
@@ -75,42 +86,42 @@ class Episode:
     seed: int
     index: int
     success: bool
-    instructions: list
+    instructions: list[str]
     action_space: str
-    joint_names: tuple
-    joint_ranges: np.ndarray
-    subtasks: np.ndarray
-    states: np.ndarray
-    joints: np.ndarray
-    openings: np.ndarray
-    tools: np.ndarray
-    base: np.ndarray
-    objects: dict
-    actions: np.ndarray
-    commands: np.ndarray
-    rewards: np.ndarray
-    dones: np.ndarray
-    goals: np.ndarray
-    images: dict
-    camera_poses: dict
-    intrinsics: dict
-    legend: dict
+    joint_names: tuple[str, ...]
+    joint_ranges: FloatArray
+    subtasks: NDArray[np.int64]
+    states: Float32Array
+    joints: FloatArray
+    openings: FloatArray
+    tools: FloatArray
+    base: FloatArray
+    objects: dict[str, ObjectTrack]
+    actions: Float32Array
+    commands: FloatArray
+    rewards: Float32Array
+    dones: NDArray[np.bool_]
+    goals: NDArray[np.bool_]
+    images: dict[str, ImageArray]
+    camera_poses: dict[str, FloatArray]
+    intrinsics: dict[str, Intrinsics]
+    legend: dict[int, str]
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.actions)
 
     @property
-    def times(self):
+    def times(self) -> FloatArray:
         """(T + 1) s."""
-        return np.arange(len(self) + 1) * STEP_SECONDS
+        return np.arange(len(self) + 1, dtype=np.float64) * STEP_SECONDS
 
     @property
-    def instruction(self):
+    def instruction(self) -> str:
         """The sentence of a task of one subtask, or those of all subtasks."""
         return " ".join(self.instructions)
 
     @property
-    def targets(self):
+    def targets(self) -> FloatArray:
         """(T, J + 1) what an arm that follows joint targets is sent: the set points at the end of
         the next step, rad or m, since the arm arrives about a step later, and the gripper's command
         of this step."""
@@ -118,7 +129,7 @@ class Episode:
         rows[:-1, :-1] = self.commands[1:, :-1]
         return rows
 
-    def chosen_actions(self, which):
+    def chosen_actions(self, which: RecordedActions) -> tuple[str, Float32Array]:
         """Returns an action space and the actions (T, A) float32 in it, in [-1, 1].
 
         Args:
@@ -141,9 +152,12 @@ class Episode:
         return "joint_targets", targets.astype(np.float32)
 
 
-def record(skill=None, count=50, policy=None, cameras=("front", "wrist"), image_size=128,
-           images=("rgb",), look=None, seed=1, keep="successes", progress=None, run=None,
-           **settings):
+def record(skill: str | None = None, count: int = 50,
+           policy: PolicyName | Acting | Callable[[Any], ArrayLike] | None = None,
+           cameras: Cameras = ("front", "wrist"), image_size: ImageSize = 128,
+           images: ImageKinds = ("rgb",), look: Look = None, seed: int = 1,
+           keep: Keep = "successes", progress: ProgressArgument = None, run: Path | None = None,
+           **settings: Any) -> Iterator[Episode]:
     """Records episodes.
 
     Args:
@@ -187,11 +201,12 @@ def record(skill=None, count=50, policy=None, cameras=("front", "wrist"), image_
     return _record(env, skill, int(count), acting, int(seed), keep, reporter(progress))
 
 
-def _policy(skill, policy):
+def _policy(skill: str | None, policy: Any) -> Any:
     """Returns something with ``act``, or None for the expert."""
     if not isinstance(policy, str):
         if not hasattr(policy, "act") and not callable(policy):
-            raise _core.Error(f"policy: is {policy!r} (give expert, shipped, a Policy or a function)")
+            raise _core.Error(f"policy: is {policy!r} "
+                              "(give expert, shipped, a Policy or a function)")
         return policy
     if policy not in ("expert", "shipped"):
         raise _core.Error(f"policy: is '{policy}' (give expert, shipped or a Policy)")
@@ -199,10 +214,11 @@ def _policy(skill, policy):
         return None
     if skill not in skills.names():
         raise _core.Error(f"policy: no policy is shipped for {skill} (give expert or a Policy)")
-    return skills.load(skill)
+    return skills.load(cast(str, skill))
 
 
-def _environment(skill, acting, settings, **pictures):
+def _environment(skill: str | None, acting: Any, settings: dict[str, Any],
+                 **pictures: Any) -> SkillEnv | LongTaskEnv:
     """Returns the environment of a skill, a long task or a task file."""
     try:
         from . import envs
@@ -229,7 +245,8 @@ def _environment(skill, acting, settings, **pictures):
         raise _core.Error(f"settings: are not those of an environment ({error})") from None
 
 
-def _record(env, skill, count, acting, seed, keep, report):
+def _record(env: SkillEnv | LongTaskEnv, skill: str | None, count: int, acting: Any, seed: int,
+            keep: Keep, report: Reporter | None) -> Iterator[Episode]:
     """Yields the episodes of ``record``."""
     describe = _Descriptions(env)
     began, kept, attempts = time.monotonic(), 0, 0
@@ -252,19 +269,20 @@ def _record(env, skill, count, acting, seed, keep, report):
 class _Frames:
     """Collects the frames of an episode, in lists by name."""
 
-    def __init__(self, env):
-        self.rows = {}
-        self.objects = {}
-        self.images = {key: [] for key in getattr(env.observation_space, "spaces", {})
-                       if key != "state"}
-        self.poses = {name: [] for name in env._seen}
-        self.intrinsics = {}
+    def __init__(self, env: SkillEnv | LongTaskEnv) -> None:
+        self.rows: dict[str, list[Any]] = {}
+        self.objects: dict[str, dict[str, list[Any]]] = {}
+        self.images: dict[str, list[ImageArray]] = {
+            key: [] for key in getattr(env.observation_space, "spaces", {}) if key != "state"}
+        self.poses: dict[str, list[FloatArray]] = {name: [] for name in env._seen}
+        self.intrinsics: dict[str, Intrinsics] = {}
 
-    def add(self, **values):
+    def add(self, **values: Any) -> None:
         for name, value in values.items():
             self.rows.setdefault(name, []).append(value)
 
-    def look(self, env, observation, subtask, world_from_base):
+    def look(self, env: SkillEnv | LongTaskEnv, observation: Any, subtask: int,
+             world_from_base: FloatArray) -> None:
         """Adds the state that an observation belongs to."""
         state = env.state()
         self.add(states=observation["state"] if env._seen else observation, subtasks=subtask,
@@ -282,11 +300,12 @@ class _Frames:
             known["poses"].append(entry["pose"])
             known["joints"].append(list(entry["joints"].values()))
 
-    def array(self, name, dtype=np.float64):
+    def array(self, name: str, dtype: Any = np.float64) -> NDArray[Any]:
         return np.asarray(self.rows[name], dtype=dtype)
 
 
-def _run(env, skill, acting, seed, index, describe):
+def _run(env: SkillEnv | LongTaskEnv, skill: str | None, acting: Any, seed: int, index: int,
+         describe: _Descriptions) -> Episode:
     """Runs an episode to its end."""
     observation, info = env.reset(seed=seed) if index == 0 else env.reset()
     about = describe.episode(env)
@@ -319,8 +338,10 @@ def _run(env, skill, acting, seed, index, describe):
         subtasks=frames.array("subtasks", np.int64), states=frames.array("states", np.float32),
         joints=frames.array("joints"), openings=frames.array("openings"),
         tools=frames.array("tools"), base=base,
-        objects={name: {key: value if key == "joint_names" else np.asarray(value, dtype=np.float64)
-                        for key, value in entry.items()} for name, entry in frames.objects.items()},
+        objects={name: {"poses": np.asarray(entry["poses"], dtype=np.float64),
+                        "joints": np.asarray(entry["joints"], dtype=np.float64),
+                        "joint_names": entry["joint_names"]}
+                 for name, entry in frames.objects.items()},
         actions=frames.array("actions", np.float32), commands=frames.array("commands"),
         rewards=frames.array("rewards", np.float32), dones=frames.array("dones", bool),
         goals=frames.array("goals", bool),
@@ -329,7 +350,7 @@ def _run(env, skill, acting, seed, index, describe):
         intrinsics=frames.intrinsics, legend=about["legend"])
 
 
-def _pose(told):
+def _pose(told: dict[str, Any]) -> FloatArray:
     """Returns the pose (4, 4) of a position and a quaternion w x y z of a task file."""
     w, x, y, z = told["quaternion_wxyz"]
     pose = np.eye(4)
@@ -340,7 +361,7 @@ def _pose(told):
     return pose
 
 
-def describe(env):
+def describe(env: SkillEnv | LongTaskEnv) -> Description:
     """Returns what the present episode of an environment with cameras is about.
 
     Args:
@@ -359,7 +380,7 @@ def describe(env):
 class _Descriptions:
     """States what episodes are about; reads the task file once."""
 
-    def __init__(self, env):
+    def __init__(self, env: SkillEnv | LongTaskEnv) -> None:
         if not env._specs:
             raise _core.Error("describe: the environment has no cameras (make it with some)")
         with open(env.tasks_file, encoding="utf-8") as stream:
@@ -368,7 +389,7 @@ class _Descriptions:
         self._tasks = [task for task in tasks if task["name"] in chosen]
         self._subtask = env.subtask_index
 
-    def episode(self, env):
+    def episode(self, env: SkillEnv | LongTaskEnv) -> Description:
         legend = env.camera(env._specs[0].name)["legend"]
         task = self._find(legend, env.state()["target"])
         subtasks = task["subtasks"]
@@ -378,7 +399,7 @@ class _Descriptions:
                 "base": _pose(task["subtasks"][self._subtask or 0]["start"]["robot"]),
                 "instructions": [subtask["description"] for subtask in subtasks]}
 
-    def _find(self, legend, target):
+    def _find(self, legend: dict[int, str], target: str) -> dict[str, Any]:
         """Returns the task with the target object and the target link that the legend names."""
         found = [task for task in self._tasks if not target or target in task["assets"]]
         links = [name.split("/", 1)[1] for name in legend.values() if "/" in name]
@@ -390,7 +411,7 @@ class _Descriptions:
         return (found or self._tasks)[0]
 
 
-def main(arguments=None):
+def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the command ``python -m simwright.demonstrations``; returns its exit code."""
     from ._recording_command import main as command
     return command(arguments)

@@ -10,6 +10,10 @@ target), "guided", "delta", "osc_delta" (robosuite's OSC_POSE), "absolute", "joi
 "joint_targets"; all are boxes in [-1, 1].
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, cast
+
 import gymnasium
 import numpy as np
 from gymnasium import spaces
@@ -20,6 +24,13 @@ from . import _core
 from ._cells import long_task
 from ._progress import reporter
 from ._worlds import Worlds, fault_of, numbers, task_file
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from ._types import (ActionSpace, Cameras, CameraState, EnvironmentState, Float32Array,
+                         ImageArray, ImageKinds, ImageSize, Info, Look, Names, Observation, Path,
+                         ProgressArgument, Range, RenderMode, Split)
 
 __all__ = ["LongTaskEnv", "SkillEnv", "SkillVectorEnv", "register_envs"]
 
@@ -57,10 +68,15 @@ class SkillEnv(Worlds, gymnasium.Env):
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
 
-    def __init__(self, cell=None, tasks=None, task="*", subtask=0, split="train", instances=None,
-                 action_space="focus", robot=None, easy_starts=False, episode_seconds=None,
-                 cameras=(), image_size=128, images=("rgb",), look=None, render_mode=None,
-                 render_size=(480, 360), progress=None, finger_friction=None):
+    def __init__(self, cell: str | None = None, tasks: Path | None = None, task: Names = "*",
+                 subtask: int = 0, split: Split = "train",
+                 instances: int | None = None, action_space: ActionSpace = "focus",
+                 robot: str | None = None, easy_starts: bool = False,
+                 episode_seconds: float | None = None, cameras: Cameras = (),
+                 image_size: ImageSize = 128, images: ImageKinds = ("rgb",), look: Look = None,
+                 render_mode: RenderMode | None = None, render_size: tuple[int, int] = (480, 360),
+                 progress: ProgressArgument = None,
+                 finger_friction: Range | None = None) -> None:
         file, robot = task_file(cell, tasks, robot, split, instances, progress)
         self._prepare(file, robot, "*" if tasks is None else task, action_space, int(subtask),
                       episode_seconds, finger_friction)
@@ -70,25 +86,26 @@ class SkillEnv(Worlds, gymnasium.Env):
         if self._eyes is not None:
             self._episode.attach_cameras(self._eyes)
         self.observation_space = self._space(
-            spaces.Box(-np.inf, np.inf, (self.task.observation_size(subtask),), np.float32), pictures)
+            spaces.Box(-np.inf, np.inf, (self.task.observation_size(subtask),), np.float32),
+            pictures)
         self.action_space = spaces.Box(-1.0, 1.0, (self.task.action_size(subtask),), np.float32)
         self._running = False
 
-    def reset(self, *, seed=None, options=None):
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None,
+              ) -> tuple[Observation, Info]:
         """Starts the next episode of the seed; a new seed starts with its first one."""
         self._require_open()
         super().reset(seed=seed)
-        self._number_episode(seed)
-        observation = self._episode.begin(self._seed, self._index)
+        observation = self._episode.begin(*self._number_episode(seed, self.np_random))
         self._running = True
         return self._observation(observation), {"success": False, "is_success": False}
 
-    def _observation(self, state):
+    def _observation(self, state: Float32Array) -> Observation:
         if not self._seen:
             return state
         return self._with_images(state, self._episode.images(self._seen, self._kinds))
 
-    def step(self, action):
+    def step(self, action: ArrayLike) -> tuple[Observation, float, bool, bool, Info]:
         """Executes an action (A), clamped to [-1, 1]; one that is not finite ends the episode."""
         self._require_open()
         if not self._running:
@@ -102,29 +119,29 @@ class SkillEnv(Worlds, gymnasium.Env):
         self._running = not (held or truncated)
         return self._observation(observation), float(reward), held, truncated, info
 
-    def render(self):
+    def render(self) -> NDArray[np.uint8]:
         """Returns the picture (H, W, 3) uint8 of the robot and its objects."""
         self._require_render()
         return self._episode.images(["render"], ["rgb"])["render"]["rgb"]
 
-    def camera(self, name):
+    def camera(self, name: str) -> CameraState:
         """Returns a camera as it is now: ``pose`` (4, 4), world from camera, m; ``intrinsics`` (fx,
         fy, cx, cy), pixels; ``legend``, the names of the segmentation's labels."""
         self._require_open()
-        return self._episode.camera(name)
+        return cast("CameraState", self._episode.camera(name))
 
-    def expert_action(self):
+    def expert_action(self) -> Float32Array | None:
         """Returns the scripted expert's action (A), or None where there is none."""
         self._require_open()
-        return self._episode.expert_action()
+        return cast("Float32Array | None", self._episode.expert_action())
 
-    def state(self):
+    def state(self) -> EnvironmentState:
         """Returns the state in SI units, world frame: robot_joints (rad), gripper_pose (4, 4),
         gripper_opening (m), grasped, objects (pose (4, 4), joints), seconds."""
         self._require_open()
-        return self._episode.state()
+        return cast("EnvironmentState", self._episode.state())
 
-    def close(self):
+    def close(self) -> None:
         self._open = False
 
 
@@ -138,16 +155,22 @@ class SkillVectorEnv(Worlds, gymnasium.vector.VectorEnv):
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20,
                 "autoreset_mode": AutoresetMode.SAME_STEP}
 
-    def __init__(self, num_envs=1, cell=None, tasks=None, task="*", subtask=0, split="train",
-                 instances=None, action_space="focus", robot=None, easy_starts=False,
-                 episode_seconds=None, cameras=(), image_size=128, images=("rgb",), look=None,
-                 render_mode=None, render_size=(480, 360), progress=None, finger_friction=None):
+    def __init__(self, num_envs: int = 1, cell: str | None = None, tasks: Path | None = None,
+                 task: Names = "*", subtask: int = 0, split: Split = "train",
+                 instances: int | None = None, action_space: ActionSpace = "focus",
+                 robot: str | None = None, easy_starts: bool = False,
+                 episode_seconds: float | None = None, cameras: Cameras = (),
+                 image_size: ImageSize = 128, images: ImageKinds = ("rgb",), look: Look = None,
+                 render_mode: RenderMode | None = None, render_size: tuple[int, int] = (480, 360),
+                 progress: ProgressArgument = None,
+                 finger_friction: Range | None = None) -> None:
         self.num_envs = int(num_envs)
         file, robot = task_file(cell, tasks, robot, split, instances, progress)
         self._prepare(file, robot, "*" if tasks is None else task, action_space, int(subtask),
                       episode_seconds, finger_friction)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
-        self._episodes = _core.VectorEpisodes(self.task, int(subtask), self.num_envs, not easy_starts)
+        self._episodes = _core.VectorEpisodes(self.task, int(subtask), self.num_envs,
+                                              not easy_starts)
         self._eyes = self._make_cameras(int(subtask), not easy_starts)
         if self._eyes is not None:
             self._episodes.attach_cameras(self._eyes, self._seen, self._kinds)
@@ -157,18 +180,22 @@ class SkillVectorEnv(Worlds, gymnasium.vector.VectorEnv):
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
 
-    def reset(self, *, seed=None, options=None):
+    def reset(self, *, seed: int | list[int | None] | None = None,
+              options: dict[str, Any] | None = None) -> tuple[Observation, Info]:
         """Restarts all episodes. ``seed``: an int, or a list of N ints that is condensed to one."""
         self._require_open()
         if options and "reset_mask" in options:
-            raise _core.Error("reset_mask: is not used (episodes restart in the step that ends them)")
+            raise _core.Error("reset_mask: is not used "
+                              "(episodes restart in the step that ends them)")
         if isinstance(seed, (list, tuple, np.ndarray)):
             if len(seed) != self.num_envs:
-                raise _core.Error(f"seed: has {len(seed)} entries (give {self.num_envs}, or one int)")
-            if any(one is None for one in seed):
+                raise _core.Error(f"seed: has {len(seed)} entries "
+                                  f"(give {self.num_envs}, or one int)")
+            numbered = [int(one) for one in seed if one is not None]
+            if len(numbered) < len(seed):
                 seed = None
             else:
-                state = np.random.SeedSequence([int(one) for one in seed]).generate_state(2)
+                state = np.random.SeedSequence(numbered).generate_state(2)
                 seed = int(state[0]) << 30 | int(state[1]) >> 2
         super().reset(seed=seed)
         if seed is None:
@@ -176,15 +203,16 @@ class SkillVectorEnv(Worlds, gymnasium.vector.VectorEnv):
         observations = self._episodes.reset(int(seed))
         return self._observation(observations), self._info(np.zeros(self.num_envs, dtype=bool))
 
-    def _observation(self, states):
+    def _observation(self, states: Float32Array) -> Observation:
         if not self._seen:
             return states
         return self._with_images(states, self._episodes.images(self._seen, self._kinds))
 
-    def _info(self, success):
+    def _info(self, success: NDArray[np.bool_]) -> Info:
         return {"success": success, "_success": np.ones(self.num_envs, dtype=bool)}
 
-    def step(self, actions):
+    def step(self, actions: ArrayLike) -> tuple[
+            Observation, NDArray[np.float32], NDArray[np.bool_], NDArray[np.bool_], Info]:
         """Executes actions (N, A), clamped to [-1, 1]."""
         self._require_open()
         actions = self._sent(numbers(actions, self.action_space.shape))
@@ -196,7 +224,8 @@ class SkillVectorEnv(Worlds, gymnasium.vector.VectorEnv):
             ended = terminated | truncated
             final = np.full(self.num_envs, None, dtype=object)
             if self._seen:
-                last = self._with_images(last, self._episodes.last_images())
+                images = cast("dict[str, dict[str, ImageArray]]", self._episodes.last_images())
+                last = self._with_images(last, images)
             for index in np.flatnonzero(ended):
                 final[index] = ({key: value[index] for key, value in last.items()}
                                 if self._seen else last[index])
@@ -206,22 +235,22 @@ class SkillVectorEnv(Worlds, gymnasium.vector.VectorEnv):
             if faults.any():
                 text = np.full(self.num_envs, None, dtype=object)
                 for index in np.flatnonzero(faults):
-                    text[index] = fault_of(actions[index], failed[index], index)
+                    text[index] = fault_of(actions[index], failed[index], int(index))
                 final_info["fault"], final_info["_fault"] = text, faults
             infos["final_info"], infos["_final_info"] = final_info, ended.copy()
         return self._observation(observations), rewards, terminated, truncated, infos
 
-    def render(self):
+    def render(self) -> tuple[NDArray[np.uint8], ...]:
         """Returns the pictures (H, W, 3) uint8 of the robots, one per environment."""
         self._require_render()
         return tuple(self._episodes.images(["render"], ["rgb"])["render"]["rgb"])
 
-    def expert_actions(self):
+    def expert_actions(self) -> Float32Array | None:
         """Returns the scripted expert's actions (N, A), or None where there is none."""
         self._require_open()
-        return self._episodes.demonstrate()
+        return cast("Float32Array | None", self._episodes.demonstrate())
 
-    def close_extras(self, **kwargs):
+    def close_extras(self, **kwargs: Any) -> None:
         self._open = False
 
 
@@ -236,14 +265,18 @@ class LongTaskEnv(Worlds, gymnasium.Env):
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
 
-    def __init__(self, name=None, tasks=None, task="*", action_space="focus", robot=None,
-                 episode_seconds=None, cameras=(), image_size=128, images=("rgb",), look=None,
-                 render_mode=None, render_size=(480, 360), progress=None, finger_friction=None):
+    def __init__(self, name: str | None = None, tasks: Path | None = None, task: Names = "*",
+                 action_space: ActionSpace = "focus", robot: str | None = None,
+                 episode_seconds: float | None = None, cameras: Cameras = (),
+                 image_size: ImageSize = 128, images: ImageKinds = ("rgb",), look: Look = None,
+                 render_mode: RenderMode | None = None, render_size: tuple[int, int] = (480, 360),
+                 progress: ProgressArgument = None,
+                 finger_friction: Range | None = None) -> None:
         if (name is None) == (tasks is None):
             raise _core.Error("environment: needs a long task, or a tasks.json (give name= or tasks=)")
         if name is not None:
-            known = next((entry for entry in _core.long_tasks() if entry["name"] == name), None)
             tasks = long_task(name, reporter(progress))
+            known = next(entry for entry in _core.long_tasks() if entry["name"] == name)
             robot = robot or known["robot"]
         self._prepare(str(tasks), robot or "panda", task, action_space, None, episode_seconds,
                       finger_friction)
@@ -261,7 +294,7 @@ class LongTaskEnv(Worlds, gymnasium.Env):
         self._subtask = 0
         self._running = False
 
-    def _observation(self, part):
+    def _observation(self, part: Float32Array) -> Observation:
         count = len(self._episodes)
         whole = np.zeros(count + self._longest, np.float32)
         whole[self._subtask] = 1.0
@@ -271,28 +304,29 @@ class LongTaskEnv(Worlds, gymnasium.Env):
         episode = self._episodes[self._subtask]
         return self._with_images(whole, episode.images(self._seen, self._kinds))
 
-    def render(self):
+    def render(self) -> NDArray[np.uint8]:
         """Returns the picture (H, W, 3) uint8 of the robot and its objects."""
         self._require_render()
         return self._episodes[self._subtask].images(["render"], ["rgb"])["render"]["rgb"]
 
-    def subtask_observation(self, observation):
+    def subtask_observation(self, observation: Observation) -> Float32Array:
         """Returns the current subtask's own observation, which its policy takes."""
-        state = observation["state"] if self._seen else observation
+        state: Float32Array = observation["state"] if self._seen else observation
         count = len(self._episodes)
         return state[count:count + self.task.observation_size(self._subtask)]
 
-    def reset(self, *, seed=None, options=None):
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None,
+              ) -> tuple[Observation, Info]:
         """Starts the next episode of the seed; a new seed starts with its first one."""
         self._require_open()
         super().reset(seed=seed)
-        self._number_episode(seed)
+        numbered = self._number_episode(seed, self.np_random)
         self._subtask = 0
         self._running = True
-        part = self._episodes[0].begin(self._seed, self._index)
+        part = self._episodes[0].begin(*numbered)
         return self._observation(part), {"success": False, "is_success": False, "subtask": 0}
 
-    def step(self, action):
+    def step(self, action: ArrayLike) -> tuple[Observation, float, bool, bool, Info]:
         """Executes an action (A) in the current subtask."""
         self._require_open()
         if not self._running:
@@ -314,32 +348,32 @@ class LongTaskEnv(Worlds, gymnasium.Env):
         self._running = not (terminated or truncated)
         return self._observation(part), float(reward), terminated, truncated, info
 
-    def expert_action(self):
+    def expert_action(self) -> Float32Array | None:
         """Returns the scripted expert's action (A), or None where there is none."""
         self._require_open()
-        return self._episodes[self._subtask].expert_action()
+        return cast("Float32Array | None", self._episodes[self._subtask].expert_action())
 
-    def camera(self, name):
+    def camera(self, name: str) -> CameraState:
         """Returns a camera as it is now, as ``SkillEnv.camera``."""
         self._require_open()
-        return self._episodes[self._subtask].camera(name)
+        return cast("CameraState", self._episodes[self._subtask].camera(name))
 
-    def state(self):
+    def state(self) -> EnvironmentState:
         """Returns the state in SI units, as ``SkillEnv.state``."""
         self._require_open()
-        return self._episodes[self._subtask].state()
+        return cast("EnvironmentState", self._episodes[self._subtask].state())
 
-    def close(self):
+    def close(self) -> None:
         self._open = False
 
 
-def _camel(name):
+def _camel(name: str) -> str:
     return "".join(word.capitalize() for word in name.split("_"))
 
 
-def register_envs():
+def register_envs() -> None:
     """Registers simwright/OpenDrawer-v0 and the other environments, once."""
-    def register(title, entry, vector=None, **kwargs):
+    def register(title: str, entry: str, vector: str | None = None, **kwargs: Any) -> None:
         full = f"simwright/{title}-v0"
         if full not in gymnasium.registry:
             gymnasium.register(full, entry_point=f"simwright.envs:{entry}",

@@ -12,7 +12,8 @@ from ._progress import reporter
 if TYPE_CHECKING:
     from ._types import DecompositionFacts, ProgressArgument, SolidFacts
 
-__all__ = ["MassProperties", "Mesh", "decompose", "make_solid", "mass_properties", "mesh", "read_mesh"]
+__all__ = ["MassProperties", "Mesh", "decompose", "make_solid", "mass_properties", "mesh",
+           "read_mesh"]
 
 read_mesh = _core.read_mesh
 

@@ -117,15 +117,15 @@ class DifferentiableRenderer:
                  texture: ArrayLike | None = None, corner_uvs: ArrayLike | None = None,
                  lit: bool = False, smooth_normals: bool = True, render_normals: bool = False,
                  samples_per_side: int = 2, edge_samples: int = 4000) -> None:
-        if colors is not None:
-            colors = array("colors", colors, (len(mesh.vertices), 3), np.float64)
-        if texture is not None:
-            texture = array("texture", texture, (None, None, 3), np.float32)
-        if corner_uvs is not None:
-            corner_uvs = array("corner_uvs", corner_uvs, (3 * len(mesh.triangles), 2), np.float32)
+        def given(name: str, value: ArrayLike | None, shape: tuple[int | None, ...],
+                  dtype: type[np.floating[Any]]) -> NDArray[Any] | None:
+            return None if value is None else array(name, value, shape, dtype)
+
         self._renderer = _core.DifferentiableRenderer(
-            mesh, colors, texture, corner_uvs, bool(lit), bool(smooth_normals), bool(render_normals),
-            int(samples_per_side), int(edge_samples))
+            mesh, given("colors", colors, (len(mesh.vertices), 3), np.float64),
+            given("texture", texture, (None, None, 3), np.float32),
+            given("corner_uvs", corner_uvs, (3 * len(mesh.triangles), 2), np.float32), bool(lit),
+            bool(smooth_normals), bool(render_normals), int(samples_per_side), int(edge_samples))
 
     def set_vertices(self, vertices: ArrayLike) -> None:
         """Sets the vertices (N, 3), m, that the next image uses."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from os import fspath
+from os import PathLike, fspath
 from typing import TYPE_CHECKING, Iterable, cast
 
 from . import _core
@@ -67,7 +67,7 @@ def total_penetration(objects: Iterable[SceneObject], assets: AssetSet) -> float
 
 
 def _paths(paths: Paths) -> list[str]:
-    if isinstance(paths, (str, bytes)) or hasattr(paths, "__fspath__"):
+    if isinstance(paths, (str, bytes, PathLike)):
         paths = [paths]
     return [fspath(path) for path in paths]
 

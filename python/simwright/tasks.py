@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from os import fspath
+from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, Iterable, cast
 
 from . import _core
@@ -44,7 +44,7 @@ def make(assets: Paths, output: Path, count: int = 0, seed: int = 1, force: bool
     Raises:
         Error: if an asset cannot be read, or the output exists.
     """
-    if isinstance(assets, str) or hasattr(assets, "__fspath__"):
+    if isinstance(assets, (str, PathLike)):
         assets = [assets]
     return cast("Report", _core.make_tasks(
         [fspath(asset) for asset in assets], fspath(output), int(count), int(seed), bool(force),
