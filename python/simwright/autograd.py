@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import torch
@@ -10,18 +10,22 @@ import torch
 from . import _core
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from .render import DifferentiableRenderer
 
 __all__ = ["render"]
 
 
-def _array(tensor, dtype):
+def _array(tensor: torch.Tensor, dtype: type[np.floating[Any]]) -> NDArray[Any]:
     return np.ascontiguousarray(tensor.detach().cpu().numpy(), dtype=dtype)
 
 
 class _Render(torch.autograd.Function):
     @staticmethod
-    def forward(context, renderer, camera, seed, vertices, colors, light):
+    def forward(context: Any, renderer: Any, camera: _core.Camera, seed: int,
+                vertices: torch.Tensor, colors: torch.Tensor | None,
+                light: torch.Tensor | None) -> tuple[torch.Tensor, ...]:
         renderer.set_vertices(_array(vertices, np.float64))
         if colors is not None:
             renderer.set_colors(_array(colors, np.float64))
@@ -34,7 +38,8 @@ class _Render(torch.autograd.Function):
         return tuple(torch.from_numpy(images[name]) for name in ("color", "mask", "depth"))
 
     @staticmethod
-    def backward(context, color, mask, depth):
+    def backward(context: Any, color: torch.Tensor | None, mask: torch.Tensor | None,
+                 depth: torch.Tensor | None) -> tuple[torch.Tensor | None, ...]:
         vertices, colors, light = context.saved_tensors
         renderer = context.renderer
         if context.images != renderer._torch_images:  # another image was rendered since
@@ -49,7 +54,7 @@ class _Render(torch.autograd.Function):
         gradients = renderer.backward(*(None if gradient is None else _array(gradient, np.float32)
                                         for gradient in (color, mask, depth)))
 
-        def like(name, tensor):
+        def like(name: str, tensor: torch.Tensor | None) -> torch.Tensor | None:
             if tensor is None or name not in gradients:
                 return None
             return torch.from_numpy(gradients[name]).to(tensor)

@@ -18,7 +18,7 @@ import json
 import re
 import sys
 import time
-from typing import TYPE_CHECKING, Any, Callable, Iterator, Sequence, cast
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -214,7 +214,7 @@ def _policy(skill: str | None, policy: Any) -> Any:
         return None
     if skill not in skills.names():
         raise _core.Error(f"policy: no policy is shipped for {skill} (give expert or a Policy)")
-    return skills.load(cast(str, skill))
+    return skills.load(skill)
 
 
 def _environment(skill: str | None, acting: Any, settings: dict[str, Any],
@@ -408,7 +408,8 @@ class _Descriptions:
             named = [task for task in found if word.search(
                 "\n".join(task["subtasks"][self._subtask or 0]["program"]))]
             found = named or found
-        return (found or self._tasks)[0]
+        chosen: dict[str, Any] = (found or self._tasks)[0]
+        return chosen
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -122,7 +122,8 @@ class SkillEnv(Worlds, gymnasium.Env):
     def render(self) -> NDArray[np.uint8]:
         """Returns the picture (H, W, 3) uint8 of the robot and its objects."""
         self._require_render()
-        return self._episode.images(["render"], ["rgb"])["render"]["rgb"]
+        images: dict[str, Any] = self._episode.images(["render"], ["rgb"])
+        return cast("NDArray[np.uint8]", images["render"]["rgb"])
 
     def camera(self, name: str) -> CameraState:
         """Returns a camera as it is now: ``pose`` (4, 4), world from camera, m; ``intrinsics`` (fx,
@@ -307,7 +308,8 @@ class LongTaskEnv(Worlds, gymnasium.Env):
     def render(self) -> NDArray[np.uint8]:
         """Returns the picture (H, W, 3) uint8 of the robot and its objects."""
         self._require_render()
-        return self._episodes[self._subtask].images(["render"], ["rgb"])["render"]["rgb"]
+        images: dict[str, Any] = self._episodes[self._subtask].images(["render"], ["rgb"])
+        return cast("NDArray[np.uint8]", images["render"]["rgb"])
 
     def subtask_observation(self, observation: Observation) -> Float32Array:
         """Returns the current subtask's own observation, which its policy takes."""

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, Iterable, Mapping
 from . import _core
 
 if TYPE_CHECKING:
-    from ._types import Path, RewardInput
+    from ._types import Float32Array, Path, RewardInput
 
 __all__ = ["Program", "compile"]
 
 
-def _is_tensor(value):
+def _is_tensor(value: object) -> bool:
     return type(value).__module__.split(".")[0] == "torch"
 
 
@@ -77,7 +77,7 @@ class Program:
                 {name: torch.from_numpy(array) for name, array in components.items()})
 
     @staticmethod
-    def _array(key, value):
+    def _array(key: str, value: Any) -> Float32Array:
         import numpy as np
 
         if _is_tensor(value):

@@ -48,6 +48,7 @@ class VecEnv(_VecEnv):
 
     def reset(self) -> VecEnvObs:
         seeds, self._seeds = self._seeds, [None] * self.num_envs
+        observations: VecEnvObs
         observations, _ = self.envs.reset(seed=seeds[0])
         self._returns[:] = 0.0
         self._lengths[:] = 0
