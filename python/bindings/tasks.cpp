@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,6 +11,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "core/error.h"
+#include "llm/make_chat_model.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/calls.h"
 #include "python/bindings/reports.h"
@@ -27,14 +29,37 @@ namespace {
 using nb::literals::operator""_a;
 namespace fs = std::filesystem;
 
+// The model at `url` ("env": SIMWRIGHT_LLM_URL) or of a transcript; null for neither. The key is
+// that of SIMWRIGHT_LLM_KEY.
+std::unique_ptr<llm::ChatModel> LanguageModel(const std::string& url, const std::string& name,
+                                              const fs::path& cache, const fs::path& replay) {
+  if (url.empty() && replay.empty()) return nullptr;
+  llm::ChatModelOptions options;
+  options.replay = replay;
+  if (replay.empty()) {
+    if (url != "env") options.url = url;
+    options.model = name;
+    options.cache = cache;
+    options = llm::WithEnvironment(options, [](const char* key) { return std::getenv(key); });
+    if (options.url.empty()) {
+      throw core::Error("is 'env', and SIMWRIGHT_LLM_URL is not set", "llm", "give an address");
+    }
+  }
+  return llm::MakeChatModel(options);
+}
+
 nb::object MakeTasks(const std::vector<std::string>& assets, const fs::path& output, int count,
-                     std::uint64_t seed, bool force, const nb::object& report) {
+                     std::uint64_t seed, bool force, const std::string& url,
+                     const std::string& model_name, const fs::path& cache, const fs::path& replay,
+                     const nb::object& report) {
+  const std::unique_ptr<llm::ChatModel> model = LanguageModel(url, model_name, cache, replay);
   workflows::TasksRequest request;
   request.assets = assets;
   request.output = output;
   request.count = count;
   request.seed = seed;
   request.force = force;
+  request.model = model.get();
   return FromJson(workflows::TasksJson(RunLong(
       report, [&](core::Progress* progress) { return workflows::MakeTasks(request, progress); })));
 }
@@ -123,7 +148,7 @@ nb::dict ReadRun(const fs::path& folder) {
 
 void BindTasks(nb::module_& module) {
   module.def("make_tasks", &MakeTasks, "assets"_a, "output"_a, "count"_a, "seed"_a, "force"_a,
-             "report"_a = nb::none());
+             "llm"_a, "llm_model"_a, "llm_cache"_a, "replay"_a, "report"_a = nb::none());
   module.def("train_task", &TrainTask, "file"_a, "tasks"_a, "output"_a, "robot"_a, "action_space"_a,
              "environments"_a, "samples"_a, "minutes"_a, "imitated_samples"_a, "episodes"_a,
              "seed"_a, "resume"_a, "report"_a = nb::none());

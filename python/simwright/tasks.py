@@ -27,28 +27,36 @@ def read(file: Path) -> dict[str, Any]:
 
 
 def make(assets: Paths, output: Path, count: int = 0, seed: int = 1, force: bool = False,
+         llm: str = "", llm_model: str = "", llm_cache: Path = "", replay: Path = "",
          progress: ProgressArgument = None) -> Report:
-    """Generates the tasks that are possible with assets, by rules, and verifies each subtask.
+    """Generates tasks for assets, by rules or a language model, and verifies each subtask.
 
     Args:
         assets (str, path or list of them): PATH or NAME=PATH, asset folders or URDFs.
         output (path): the tasks.json to write; a page goes beside it.
-        count (int): most tasks; 0: five per asset.
+        count (int): most tasks; 0: five per asset by rules, eight by a language model.
         seed (int): of the choice.
         force (bool): replaces an existing file.
+        llm (str): the address of a language model (docs/llm.md), "env" for that of
+            SIMWRIGHT_LLM_URL; its key is that of SIMWRIGHT_LLM_KEY. Empty: by rules.
+        llm_model (str): its name; empty: SIMWRIGHT_LLM_MODEL.
+        llm_cache (path): a folder of cached answers; empty: none.
+        replay (path): instead of ``llm``, answers that `simwright tasks --record` has recorded.
         progress: see ``simwright``.
 
     Returns:
         dict: the report of ``simwright tasks --json``.
 
     Raises:
-        Error: if an asset cannot be read, or the output exists.
+        Error: if an asset cannot be read, the output exists, or the model is not reachable.
     """
     if isinstance(assets, (str, PathLike)):
         assets = [assets]
+    if llm and fspath(replay):
+        raise _core.Error("llm: is given beside replay (give one of them)")
     return cast("Report", _core.make_tasks(
         [fspath(asset) for asset in assets], fspath(output), int(count), int(seed), bool(force),
-        reporter(progress)))
+        str(llm), str(llm_model), fspath(llm_cache), fspath(replay), reporter(progress)))
 
 
 def train(file: Path, task: Names, output: Path, robot: str = "panda",
