@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
-
 from . import _core
-
-if TYPE_CHECKING:
-    from ._types import Float32Array
 
 if TYPE_CHECKING:
     from ._types import Float32Array
