@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 class ImageExportCommand : public ScriptedRuns {
  protected:
   // Runs the command with a Python that is the shell script `body`.
-  static Outcome RunWith(const std::string& body, const std::string& arguments) {
+  Outcome RunWith(const std::string& body, const std::string& arguments) const {
     const std::string python = Path("python");
     std::ofstream(python) << "#!/bin/sh\n" << body;
     fs::permissions(python, fs::perms::owner_all);
