@@ -7,8 +7,10 @@ It records demonstrations of the scripted expert, with the cameras "front" and "
 small network and prints its success beside that of the shipped policy, which sees the simulated
 state. The network sees both images, the robot's joints, gripper opening and tool pose, and what to
 act on: the outline of the target in the first front image, as a click on a segmenter gives it
-(--goal outline), or the number in the instruction (--goal number). It predicts a chunk of targets
-of the joints relative to the present ones, so that neither inputs nor actions know the object's pose.
+(--goal outline), or the number in the instruction (--goal number). It predicts a chunk of poses of
+the tool relative to the present one (--actions tool), as in Chi et al., "Universal Manipulation
+Interface", RSS 2024, or of joints relative to the present ones (--actions joints), so that neither
+inputs nor actions know the object's pose.
 
 While recording, the expert is pushed off its way now and then, and the network learns how it
 returns, but not the pushes: without them the network's own errors lead to states that no
@@ -35,6 +37,8 @@ import simwright as sw
 from simwright import demonstrations, envs
 
 BLOCK = 20
+# The arm arrives at a commanded pose about three steps later (at joints: one).
+LEAD = 3
 NUMBERS = 8
 CAMERAS = ("front", "wrist")
 
@@ -43,6 +47,29 @@ def body(joints, opening, tool):
     """Returns what the robot knows of itself (17): joints, opening, tool position and two axes."""
     parts = [joints, [opening], tool[:3, 3], tool[:3, 0], tool[:3, 2]]
     return np.concatenate(parts).astype(np.float32)
+
+
+def rotation_vectors(rotations):
+    """Returns axis times angle (..., 3), rad, of rotations (..., 3, 3) below half a turn."""
+    angles = np.arccos(np.clip((np.trace(rotations, axis1=-2, axis2=-1) - 1) / 2, -1, 1))
+    axes = np.stack([rotations[..., 2, 1] - rotations[..., 1, 2],
+                     rotations[..., 0, 2] - rotations[..., 2, 0],
+                     rotations[..., 1, 0] - rotations[..., 0, 1]], axis=-1)
+    return axes * (angles / np.maximum(2 * np.sin(angles), 1e-9))[..., None]
+
+
+def rotation(vector):
+    """Returns the rotation matrix (3, 3) of a rotation vector (3), rad."""
+    angle = np.linalg.norm(vector)
+    x, y, z = vector / max(angle, 1e-12)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+def tool_poses(bodies):
+    """Returns positions (N, 3) and rotations (N, 3, 3) of the tool in `bodies` (N, 17)."""
+    x, z = bodies[:, 11:14], bodies[:, 14:17]
+    return bodies[:, 8:11], np.stack([x, np.cross(z, x), z], axis=-1)
 
 
 def outline(segmentation, legend):
@@ -133,25 +160,40 @@ class Demonstrations:
         ends = np.cumsum(lengths)
         self._episode = np.repeat(np.arange(len(lengths)), lengths)
         # Beyond the end of an episode, the last target repeats.
+        last = ends[self._episode][:, None] - 1
         steps = np.arange(self.count)[:, None] + np.arange(told.chunk)
-        steps = np.minimum(steps, ends[self._episode][:, None] - 1)
-        targets = self._rows["targets"][steps]
-        targets[..., :7] -= self._rows["joints"][:, None]
-        # A step's target is the set point one step later. Beyond the end there is no push.
-        pushed = np.append(self._rows["pushed"], False)
-        later = np.minimum(steps + 1, ends[self._episode][:, None] - 1)
-        self._known = torch.tensor(~(pushed[steps] | pushed[later]), dtype=torch.float32)
+        if told.actions == "tool":
+            targets = self._tool_targets(np.minimum(steps + LEAD, last))
+        else:
+            targets = self._rows["targets"][np.minimum(steps, last), :7]
+            targets = targets - self._rows["joints"][:, None]
+        gripper = self._rows["targets"][np.minimum(steps, last), 7:]
+        self.motion_scale = torch.tensor(targets.std(axis=0) + 1e-4)
+        self._targets = torch.tensor(np.concatenate([targets, gripper], axis=2))
+        # A push until the target's step changes the target.
+        lead = LEAD if told.actions == "tool" else 1
+        until = np.minimum(np.arange(self.count)[:, None] + np.arange(told.chunk + lead), last)
+        pushed = np.logical_or.accumulate(self._rows["pushed"][until], axis=1)[:, lead:]
+        self._known = torch.tensor(~pushed, dtype=torch.float32)
+        self._goal = told.goal
         states = self._rows["states"]
         self._states = torch.tensor((states - states.mean(axis=0)) / (states.std(axis=0) + 1e-3))
         self.state_size = states.shape[1]
-        self.action_scale = torch.tensor(targets.reshape(-1, 8).std(axis=0) + 1e-3)
-        self._targets = torch.tensor(targets)
         self.body_mean = torch.tensor(self._rows["bodies"].mean(axis=0))
         self.body_scale = torch.tensor(self._rows["bodies"].std(axis=0) + 1e-3)
 
+    def _tool_targets(self, steps):
+        """Returns the tool's poses at `steps` (N, chunk) in its frame at the row's step: position,
+        m, and rotation vector, rad (N, chunk, 6)."""
+        positions, rotations = tool_poses(self._rows["bodies"])
+        now = rotations.transpose(0, 2, 1)[:, None]  # tool from base
+        moved = now @ (positions[steps] - positions[:, None])[..., None]
+        turned = rotation_vectors(now @ rotations[steps])
+        return np.concatenate([moved[..., 0], turned], axis=2).astype(np.float32)
+
     def batch(self, frames):
-        """Returns the inputs, the targets (N, chunk, 8), which of them are known (N, chunk), and the
-        standardised states (N, O)."""
+        """Returns the inputs, the targets (N, chunk, M + 1), which of them are known (N, chunk), and
+        the standardised states (N, O)."""
         episodes = self._episode[frames]
         images = [torch.from_numpy(self._rows[name][frames]) for name in CAMERAS]
         return (images, torch.from_numpy(self._rows["outlines"][episodes]),
@@ -163,17 +205,18 @@ class Demonstrations:
 class VisualPolicy(nn.Module):
     """A convolutional network for each camera, and a multilayer perceptron over all inputs."""
 
-    def __init__(self, chunk, goal, state_size):
+    def __init__(self, chunk, goal, state_size, motion_size):
         super().__init__()
         self.chunk, self.goal = chunk, goal
         self.eyes = nn.ModuleList(self._eye(3 + (goal == "outline" and name == "front"))
                                   for name in CAMERAS)
-        size = 2 * 2 * 64 + 17 + (NUMBERS if goal == "number" else 0)
+        size = 2 * 3 * 64 + 17 + (NUMBERS if goal == "number" else 0)
         self.trunk = nn.Sequential(nn.Linear(size, 512), nn.ReLU(), nn.Linear(512, 512), nn.ReLU())
-        self.head = nn.Linear(512, 8 * chunk)
+        self.head = nn.Linear(512, (motion_size + 1) * chunk)
         self.state = nn.Linear(512, state_size)
-        for name, length in (("body_mean", 17), ("body_scale", 17), ("action_scale", 8)):
-            self.register_buffer(name, torch.ones(length))
+        for name, shape in (("body_mean", (17,)), ("body_scale", (17,)),
+                            ("motion_scale", (chunk, motion_size))):
+            self.register_buffer(name, torch.ones(shape))
 
     @staticmethod
     def _eye(channels):
@@ -185,17 +228,19 @@ class VisualPolicy(nn.Module):
 
     @staticmethod
     def _points(features):
-        """Returns the mean position of each feature map (N, 2 C), by softmax over its pixels."""
+        """Returns each feature map's mean, and its mean position by softmax over its pixels
+        (N, 3 C)."""
         count, channels, height, width = features.shape
         weights = torch.softmax(features.flatten(2), dim=2).view(count, channels, height, width)
         rows = torch.linspace(-1, 1, height)
         columns = torch.linspace(-1, 1, width)
-        return torch.cat([(weights.sum(3) * rows).sum(2), (weights.sum(2) * columns).sum(2)], dim=1)
+        return torch.cat([features.mean(dim=(2, 3)), (weights.sum(3) * rows).sum(2),
+                          (weights.sum(2) * columns).sum(2)], dim=1)
 
     def forward(self, images, outlines, bodies, numbers, shift=0):
-        """Returns a chunk of actions (N, chunk, 8), joints relative to the present ones, rad, and
-        the gripper's command, and the estimated standardised state (N, O). ``shift``: pixels of
-        random translation, while training."""
+        """Returns a chunk of motions (N, chunk, M), relative to the present pose or joints, the logits
+        that the gripper opens (N, chunk), and the estimated standardised state (N, O). ``shift``:
+        pixels of random translation, while training."""
         parts = [(bodies - self.body_mean) / self.body_scale]
         for name, image, eye in zip(CAMERAS, images, self.eyes):
             pixels = image.permute(0, 3, 1, 2).float() / 255 - 0.5
@@ -210,15 +255,15 @@ class VisualPolicy(nn.Module):
         if self.goal == "number":
             parts.append(numbers)
         features = self.trunk(torch.cat(parts, dim=1))
-        actions = self.head(features).view(-1, self.chunk, 8)
-        return actions * self.action_scale, self.state(features)
+        actions = self.head(features).view(len(features), self.chunk, -1)
+        return actions[..., :-1] * self.motion_scale, actions[..., -1], self.state(features)
 
 
 def train(told, data, path):
     """Trains until the epochs or minutes are used; continues from a checkpoint at `path`."""
     torch.manual_seed(told.seed)
-    policy = VisualPolicy(told.chunk, told.goal, data.state_size)
-    for name in ("body_mean", "body_scale", "action_scale"):
+    policy = VisualPolicy(told.chunk, told.goal, data.state_size, data.motion_scale.shape[1])
+    for name in ("body_mean", "body_scale", "motion_scale"):
         getattr(policy, name).copy_(getattr(data, name))
     optimizer = torch.optim.AdamW(policy.parameters(), lr=1e-3, weight_decay=1e-4)
     state = {"epoch": 0, "seconds": 0.0}
@@ -241,8 +286,10 @@ def train(told, data, path):
         losses = []
         for start in range(0, data.count, told.batch):
             inputs, targets, known, states = data.batch(order[start:start + told.batch])
-            predicted, estimated = policy(*inputs, shift=told.shift)
-            errors = ((predicted - targets).abs() / policy.action_scale).mean(dim=2)
+            motions, opens, estimated = policy(*inputs, shift=told.shift)
+            errors = ((motions - targets[..., :-1]).abs() / policy.motion_scale).mean(dim=2)
+            errors = errors + 0.2 * nn.functional.binary_cross_entropy_with_logits(
+                opens, 0.5 * (targets[..., -1] + 1), reduction="none")
             loss = (errors * known).sum() / known.sum()
             state_loss = (estimated - states).abs().mean()
             optimizer.zero_grad()
@@ -255,7 +302,7 @@ def train(told, data, path):
                     "state": state}, partial)
         partial.replace(path)
         loss, state_loss = np.mean(losses, axis=0)
-        print(f"epoch {epoch + 1} of {told.epochs}: loss {loss:.4f}, of the state {state_loss:.4f}, "
+        print(f"epoch {epoch + 1} of {told.epochs}: loss {loss:.4f}, state {state_loss:.4f}, "
               f"{state['seconds'] / 60:.1f} min", flush=True)
     return policy.eval(), state
 
@@ -277,7 +324,15 @@ class _Sight:
         images = [torch.from_numpy(observation[name][None]) for name in CAMERAS]
         own = body(state["robot_joints"], state["gripper_opening"], tool)
         return (images, self._outline, torch.from_numpy(own[None]), self._number), \
-            state["robot_joints"]
+            state["robot_joints"], tool
+
+
+def action_of(pose, opens):
+    """Returns the action in the space "absolute" of a pose (4, 4) of the tool in the robot's base
+    (docs/python.md)."""
+    front = np.diag([1.0, -1.0, -1.0])
+    turn = rotation_vectors(front.T @ pose[:3, :3]) / np.pi
+    return np.concatenate([front.T @ (pose[:3, 3] - [0.5, 0.0, 0.3]) / 0.5, turn, [opens]])
 
 
 def run(env, observation, policy, execute):
@@ -285,13 +340,20 @@ def run(env, observation, policy, execute):
     sight = _Sight(env, observation)
     lower, upper = np.array([limits for _, *limits in env.task.arm_joints]).T
     while True:
-        inputs, joints = sight(observation)
+        inputs, joints, tool = sight(observation)
         with torch.inference_mode():
-            chunk = policy(*inputs)[0][0, :execute].double().numpy()
-        for command in chunk:
-            targets = (2 * (joints + command[:7]) - lower - upper) / (upper - lower)
-            action = np.clip(np.append(targets, command[7]), -1, 1).astype(np.float32)
-            observation, _, terminated, truncated, info = env.step(action)
+            motions, opens, _ = policy(*inputs)
+        for motion, open_share in zip(motions[0, :execute].double().numpy(),
+                                      torch.tanh(0.5 * opens[0]).double().numpy()):
+            if len(motion) == 6:
+                pose = np.eye(4)
+                pose[:3, :3], pose[:3, 3] = rotation(motion[3:]), motion[:3]
+                action = action_of(tool @ pose, open_share)
+            else:
+                action = np.append((2 * (joints + motion) - lower - upper) / (upper - lower),
+                                   open_share)
+            observation, _, terminated, truncated, info = env.step(
+                np.clip(action, -1, 1).astype(np.float32))
             if terminated or truncated:
                 return bool(info["is_success"])
 
@@ -299,7 +361,8 @@ def run(env, observation, policy, execute):
 def measure(told, policy, path):
     """Returns the successes of the episodes, continued from those in `path`."""
     results = json.loads(path.read_text()) if path.exists() else []
-    env = envs.SkillEnv(cell=told.skill, split="unseen", action_space="joint_targets",
+    env = envs.SkillEnv(cell=told.skill, split="unseen",
+                        action_space="absolute" if told.actions == "tool" else "joint_targets",
                         cameras=CAMERAS, image_size=told.image_size, look=told.look,
                         images=["rgb", "segmentation"])
     observation, _ = env.reset(seed=told.seed)
@@ -325,7 +388,8 @@ def main():
     add("--goal", choices=["outline", "number"], default="outline", help="what to act on")
     add("--pushes", type=float, default=0.02, help="probability that a push starts at a step")
     add("--state-weight", type=float, default=0.5, help="of the estimated state in the loss")
-    add("--shift", type=int, default=2, help="pixels by which images are shifted in training, at most")
+    add("--shift", type=int, default=2, help="of images in training, pixels at most")
+    add("--actions", choices=["tool", "joints"], default="tool", help="what the network predicts")
     add("--chunk", type=int, default=8, help="actions predicted at once, 0.05 s each")
     add("--execute", type=int, default=4, help="of them that are executed")
     add("--epochs", type=int, default=100, help="at most")
