@@ -3,10 +3,13 @@
 # missing. --tests adds the dependencies of tests and benchmarks (with python3-torch, against which
 # reward programs are compared), --catalogue the furniture of the catalogue tests (120 MB), --fuzz
 # the compiler of the fuzz targets, the formatter, the linter, and what the fast tests link, --bench
-# the libraries that only benchmarks compare with. --python instead creates .venv-python with what
-# the Python module is built with and its tests run (PyTorch and Stable-Baselines3 from PyPI, 5 GB),
-# --peers creates .venv-peers with Drake, MuJoCo, PyBullet and yourdfpy from PyPI (700 MB), in which
-# the tests of label `peers` load Simwright's files.
+# the libraries that only benchmarks compare with.
+#
+# Other options create Python environments from PyPI: --python .venv-python, with what the Python
+# module is built with and its tests run (PyTorch and Stable-Baselines3, 5 GB); --peers .venv-peers
+# with Drake, MuJoCo, PyBullet and yourdfpy (700 MB); --lerobot .venv-lerobot (6 GB), --robomimic
+# .venv-robomimic (6 GB) and --mcap .venv-mcap (200 MB), in which the tests of label `peers` load
+# Simwright's files. Options add up. With environments alone, no Debian package is installed.
 set -euo pipefail
 
 packages=(
@@ -19,8 +22,12 @@ packages=(
   python3-dev python3-venv
 )
 test_libraries=(libgtest-dev libsdformat-dev libcpp-httplib-dev)
-environment=
+environments=()
+install_packages=$([ $# -gt 0 ] || echo yes)
 for wanted in "$@"; do
+  case $wanted in
+    --tests | --catalogue | --fuzz | --bench) install_packages=yes ;;
+  esac
   case $wanted in
     --tests)
       packages+=("${test_libraries[@]}" libbenchmark-dev libbullet-extras-dev
@@ -31,55 +38,63 @@ for wanted in "$@"; do
       packages+=("${test_libraries[@]}" clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev)
       ;;
     --bench) packages+=(libqhull-dev libfcl-dev libccd-dev libmeshoptimizer-dev) ;;
-    --peers | --python) environment=${wanted#--} ;;
+    --python | --peers | --lerobot | --robomimic | --mcap) environments+=("${wanted#--}") ;;
     *)
-      echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz, --bench, --python or --peers)" >&2
+      echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz, --bench, --python, --peers, --lerobot, --robomimic or --mcap)" >&2
       exit 2
       ;;
   esac
 done
 
+install_missing_packages() {
+  local missing=() run=() package
+  for package in "${packages[@]}"; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' ||
+      missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || {
+      echo "error: ${#missing[@]} packages are missing and there is no sudo (run as root: apt-get install ${missing[*]})" >&2
+      exit 1
+    }
+    run=(sudo)
+  fi
+  echo "Installing ${#missing[@]} packages"
+  log=$(mktemp)
+  trap 'rm -f "$log"' EXIT
+  install() {
+    "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq update >"$log" 2>&1 &&
+      "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends \
+        "${missing[@]}" >>"$log" 2>&1
+  }
+  # Retries once: a mirror can fail during an update.
+  install || { sleep 5; install; } || { tail -20 "$log" >&2; exit 1; }
+}
+
+# create_environment NAME: creates .venv-NAME unless it has what its requirements file states.
 # Versions are pinned to those that the tests were measured with.
-if [ -n "$environment" ]; then
-  cd "$(dirname "$0")"
-  wanted=tests/$environment/requirements.txt
-  folder=.venv-$environment
-  cmp -s "$wanted" "$folder/requirements.txt" && exit 0
-  python=${PYTHON:-/usr/bin/python3}
+create_environment() {
+  local requirements folder=.venv-$1 python=${PYTHON:-/usr/bin/python3}
+  local options=(--only-binary :all:)
+  case $1 in
+    python | peers) requirements=tests/$1/requirements.txt ;;
+    *) requirements=tests/python/peers/requirements-$1.txt ;;
+  esac
+  cmp -s "$requirements" "$folder/requirements.txt" && return 0
   "$python" -c 'import ensurepip' 2>/dev/null || {
     echo "error: $python cannot create virtual environments (apt-get install python3-venv, or PYTHON=...)" >&2
     exit 1
   }
-  echo "Installing $(grep -c == "$wanted") Python packages into $folder"
+  echo "Installing $(grep -c == "$requirements") Python packages into $folder"
   rm -rf "$folder"
   "$python" -m venv "$folder"
-  "$folder/bin/pip" install --quiet --disable-pip-version-check --only-binary :all: -r "$wanted"
-  cp "$wanted" "$folder/requirements.txt"  # last: an incomplete environment is rebuilt
-  exit 0
-fi
-
-missing=()
-for package in "${packages[@]}"; do
-  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' ||
-    missing+=("$package")
-done
-[ ${#missing[@]} -gt 0 ] || exit 0
-
-run=()
-if [ "$(id -u)" != 0 ]; then
-  command -v sudo >/dev/null || {
-    echo "error: ${#missing[@]} packages are missing and there is no sudo (run as root: apt-get install ${missing[*]})" >&2
-    exit 1
-  }
-  run=(sudo)
-fi
-echo "Installing ${#missing[@]} packages"
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-install() {
-  "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq update >"$log" 2>&1 &&
-    "${run[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends \
-      "${missing[@]}" >>"$log" 2>&1
+  "$folder/bin/pip" install --quiet --disable-pip-version-check "${options[@]}" -r "$requirements"
+  cp "$requirements" "$folder/requirements.txt"  # last: an incomplete environment is rebuilt
 }
-# Retries once: a mirror can fail during an update.
-install || { sleep 5; install; } || { tail -20 "$log" >&2; exit 1; }
+
+cd "$(dirname "$0")"
+[ -z "$install_packages" ] || install_missing_packages
+for name in "${environments[@]}"; do
+  create_environment "$name"
+done
