@@ -38,9 +38,13 @@ void BindRigidAsset(nb::module_& module) {
   using assets::Asset;
   nb::class_<Asset>(module, "Asset",
                     "A rigid, simulation-ready object: metres, z up, z = 0 at its base. Constant.")
-      .def_ro("name", &Asset::name)
-      .def_prop_ro("category", [](const Asset& asset) { return asset.parameters.category; })
-      .def_prop_ro("material", [](const Asset& asset) { return asset.parameters.material; })
+      .def_ro("name", &Asset::name, "of its folder and files")
+      .def_prop_ro(
+          "category", [](const Asset& asset) { return asset.parameters.category; },
+          "its row of the knowledge base")
+      .def_prop_ro(
+          "material", [](const Asset& asset) { return asset.parameters.material; },
+          "its main material")
       .def_ro("visual", &Asset::visual, "TexturedMesh: what is seen")
       .def_ro("solid", &Asset::solid, "Mesh: closed, outward; gives mass and inertia")
       .def_ro("parts", &Asset::parts, "list of Mesh: closed, convex, for contacts")
@@ -56,13 +60,13 @@ void BindRigidAsset(nb::module_& module) {
       .def_ro("density", &Asset::density, "kg/m^3, of the material")
       .def_ro("wall_thickness", &Asset::wall_thickness, "m; 0: full")
       .def_ro("friction", &Asset::friction, "Coulomb coefficient")
-      .def_ro("restitution", &Asset::restitution)
+      .def_ro("restitution", &Asset::restitution, "coefficient, in [0, 1]")
       .def_ro("rolling_friction", &Asset::rolling_friction, "m")
       .def_ro("concavity", &Asset::concavity, "of the parts, relative to the diagonal")
       .def_ro("scale", &Asset::scale, "metres per unit of the input")
       .def_ro("source", &Asset::source, "the photo or mesh it was made from")
-      .def_ro("seed", &Asset::seed)
-      .def_ro("findings", &Asset::findings)
+      .def_ro("seed", &Asset::seed, "of the sampled parameters")
+      .def_ro("findings", &Asset::findings, "list of Finding")
       .def("__repr__", [](const Asset& asset) { return "Asset(" + asset.name + ")"; });
 }
 
@@ -70,10 +74,10 @@ void BindArticulatedAsset(nb::module_& module) {
   using assets::ArticulatedAsset;
   using assets::ArticulatedLink;
   nb::class_<ArticulatedLink>(module, "Link", "A rigid link of an articulated asset. Constant.")
-      .def_ro("name", &ArticulatedLink::name)
+      .def_ro("name", &ArticulatedLink::name, "unique in its asset")
       .def_ro("label", &ArticulatedLink::label, "its role: door, handle ...")
-      .def_ro("visual", &ArticulatedLink::visual)
-      .def_ro("parts", &ArticulatedLink::parts)
+      .def_ro("visual", &ArticulatedLink::visual, "TexturedMesh: what is seen, in the link's frame")
+      .def_ro("parts", &ArticulatedLink::parts, "list of Mesh: closed, convex, for contacts")
       .def_prop_ro(
           "mass", [](const ArticulatedLink& link) { return link.inertial.mass; }, "kg")
       .def_prop_ro(
@@ -82,16 +86,17 @@ void BindArticulatedAsset(nb::module_& module) {
       .def_prop_ro(
           "inertia", [](const ArticulatedLink& link) { return link.inertial.inertia; },
           "(3, 3) kg m^2, about the centre of mass")
-      .def_ro("friction", &ArticulatedLink::friction)
+      .def_ro("friction", &ArticulatedLink::friction, "Coulomb coefficient")
       .def("__repr__", [](const ArticulatedLink& link) { return "Link(" + link.name + ")"; });
   nb::class_<ArticulatedAsset>(
       module, "ArticulatedAsset",
       "An object with joints, which are closed, off or up at position 0. Constant.")
-      .def_ro("name", &ArticulatedAsset::name)
-      .def_prop_ro("category",
-                   [](const ArticulatedAsset& asset) { return asset.parameters.category; })
+      .def_ro("name", &ArticulatedAsset::name, "of its folder and files")
+      .def_prop_ro(
+          "category", [](const ArticulatedAsset& asset) { return asset.parameters.category; },
+          "its row of the knowledge base")
       .def_ro("fixed", &ArticulatedAsset::fixed, "mounted on a wall, a floor or a counter")
-      .def_ro("links", &ArticulatedAsset::links)
+      .def_ro("links", &ArticulatedAsset::links, "list of Link, the root first")
       .def_prop_ro(
           "joints",
           [](const ArticulatedAsset& asset) {
@@ -112,8 +117,8 @@ void BindArticulatedAsset(nb::module_& module) {
           "dicts of name, type, child, axis (3), lower and upper (rad or m)")
       .def("visual", &assets::VisualAtPositions, "positions"_a = std::map<std::string, double>(),
            "Returns all visuals as one TexturedMesh, joints at `positions` (by name; rad or m).")
-      .def_ro("seed", &ArticulatedAsset::seed)
-      .def_ro("findings", &ArticulatedAsset::findings)
+      .def_ro("seed", &ArticulatedAsset::seed, "of the sampled parameters")
+      .def_ro("findings", &ArticulatedAsset::findings, "list of Finding")
       .def("__repr__",
            [](const ArticulatedAsset& asset) { return "ArticulatedAsset(" + asset.name + ")"; });
 }

@@ -49,7 +49,7 @@ void BindSpec(nb::module_& module) {
   nb::class_<CameraSpec>(module, "CameraSpec", "Where a camera is mounted, its image and its lens.")
       .def("__init__", &MakeSpec, "name"_a, "mount"_a, "pose"_a, "width"_a, "height"_a,
            "vertical_fov"_a, "intrinsics"_a.none())
-      .def_ro("name", &CameraSpec::name)
+      .def_ro("name", &CameraSpec::name, "its key in observations")
       .def_ro("mount", &CameraSpec::mount, "world, robot, wrist or a link of the robot")
       .def_prop_ro(
           "pose",
@@ -86,7 +86,7 @@ void BindLook(nb::module_& module) {
   nb::class_<LookRanges>(module, "LookRanges",
                          "Ranges of a randomised look (docs/cameras.md); all are off by default.")
       .def(nb::init<>())
-      .def_static("wide", &LookRanges::Wide)
+      .def_static("wide", &LookRanges::Wide, "Returns the ranges of the look \"wide\".")
       .def_rw("object_color", &LookRanges::object_color, "share of objects in a random colour")
       .def_rw("robot_color", &LookRanges::robot_color, "share of episodes")
       .def_rw("tint", &LookRanges::tint, "amount per channel, [0, 1)")

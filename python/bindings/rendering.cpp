@@ -38,8 +38,8 @@ void BindCamera(nb::module_& module) {
       module, "Camera",
       "A pinhole camera that looks along +z, x right, y down (OpenCV); pixel centres at .5.")
       .def("__init__", &MakeCamera, "width"_a, "height"_a, "fx"_a, "fy"_a, "cx"_a, "cy"_a, "pose"_a)
-      .def_ro("width", &core::Camera::width)
-      .def_ro("height", &core::Camera::height)
+      .def_ro("width", &core::Camera::width, "pixels")
+      .def_ro("height", &core::Camera::height, "pixels")
       .def_ro("fx", &core::Camera::fx, "pixels")
       .def_ro("fy", &core::Camera::fy, "pixels")
       .def_ro("cx", &core::Camera::cx, "pixels")

@@ -54,7 +54,7 @@ void MakeSceneObject(SceneObject* self, const std::string& category, const Eigen
 void BindSceneObject(nb::module_& module) {
   nb::class_<SceneObject>(module, "SceneObject", "An object of a scene. Constant.")
       .def("__init__", &MakeSceneObject, "category"_a, "pose"_a, "welded"_a = false)
-      .def_ro("category", &SceneObject::category)
+      .def_ro("category", &SceneObject::category, "of its asset in the AssetSet")
       .def_ro("welded", &SceneObject::welded, "fixed furniture")
       .def_prop_ro(
           "pose",
@@ -66,7 +66,9 @@ void BindSceneObject(nb::module_& module) {
            [](const SceneObject& object) { return "SceneObject(" + object.category + ")"; });
   nb::class_<scene::AssetSet>(module, "AssetSet", "The assets of scenes by category. Constant.")
       .def_static("read", nb::overload_cast<const fs::path&>(&scene::ReadAssetSet), "folder"_a,
-                  nb::call_guard<nb::gil_scoped_release>())
+                  nb::call_guard<nb::gil_scoped_release>(),
+                  "Reads the rigid asset folders of a folder; teapot_3 has the category teapot.\n\n"
+                  "Raises:\n    Error: if an asset is damaged, or there is none.")
       .def("__contains__", &scene::AssetSet::Has, "category"_a);
 }
 

@@ -32,19 +32,13 @@ except ImportError as error:
         ) from error
     raise
 
-Error = _core.Error
+from ._core import Error, Finding, Mesh, TexturedMesh, __version__, set_threads, threads  # noqa: E402
+
 Error.__module__ = __name__
-Finding = _core.Finding
-Mesh = _core.Mesh
-TexturedMesh = _core.TexturedMesh
-__version__ = _core.__version__
 
 from . import assets, cameras, geometry, physics, render, rewards, scenes, skills, tasks  # noqa: E402
 from ._arguments import mesh  # noqa: E402
 from ._progress import set_progress  # noqa: E402
-
-set_threads = _core.set_threads
-threads = _core.threads
 
 try:
     import gymnasium as _gymnasium

@@ -55,7 +55,7 @@ def mesh(vertices: ArrayLike, triangles: ArrayLike) -> _core.Mesh:
         triangles (M, 3): indices of vertices, counter-clockwise seen from outside.
 
     Returns:
-        Mesh
+        Mesh: a copy of the arrays.
 
     Raises:
         Error: for another shape, an index out of range, or a number that is not finite.

@@ -24,7 +24,7 @@ def read(folder: Path) -> Asset | ArticulatedAsset:
         folder (path): as ``lift``, ``import_assets`` and ``library`` write it.
 
     Returns:
-        Asset or ArticulatedAsset.
+        Asset or ArticulatedAsset: the second one where the asset has joints.
 
     Raises:
         Error: if asset.json is missing, malformed, or names a missing mesh.

@@ -50,7 +50,7 @@ def camera(name: str, pose: ArrayLike | None = None, position: ArrayLike | None 
         intrinsics (4): fx, fy, cx, cy in pixels, instead of the field of view.
 
     Returns:
-        CameraSpec
+        CameraSpec: for the ``cameras`` of environments.
 
     Raises:
         Error: for a pose that is not rigid, or sizes or angles out of range; names the camera.

@@ -178,7 +178,7 @@ def record(skill: str | None = None, count: int = 50,
             ``episode_seconds``.
 
     Returns:
-        an iterator of Episode. It holds one episode in memory.
+        iterator of Episode: holds one episode in memory.
 
     Raises:
         Error: for unknown names and settings; while iterating, where fewer than one in twenty

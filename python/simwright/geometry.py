@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, cast
 
 from . import _core
 from ._arguments import mesh
-from ._core import MassProperties, Mesh
+from ._core import MassProperties, Mesh, read_mesh
 from ._progress import reporter
 
 if TYPE_CHECKING:
@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
 __all__ = ["MassProperties", "Mesh", "decompose", "make_solid", "mass_properties", "mesh",
            "read_mesh"]
-
-read_mesh = _core.read_mesh
 
 
 def make_solid(mesh: Mesh, face_budget: int = 20000,

@@ -8,14 +8,14 @@ import numpy as np
 
 from . import _core
 from ._arguments import array
-from ._core import TexturedMesh
+from ._core import Camera, TexturedMesh
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ._types import FloatArray, Float32Array, Images
 
-__all__ = ["DifferentiableRenderer", "TexturedMesh", "camera", "orbit_camera", "render",
+__all__ = ["Camera", "DifferentiableRenderer", "TexturedMesh", "camera", "orbit_camera", "render",
            "studio_light"]
 
 
@@ -29,7 +29,7 @@ def camera(width: int, height: int, fx: float, fy: float, cx: float, cy: float,
         pose (4, 4): world from camera, m.
 
     Returns:
-        Camera
+        Camera: for ``render`` and ``DifferentiableRenderer``.
 
     Raises:
         Error: without pixels or focal length, or for a pose that is not finite.
@@ -50,7 +50,7 @@ def orbit_camera(target: ArrayLike, distance: float, elevation: float, azimuth: 
         width, height (int): pixels.
 
     Returns:
-        Camera
+        Camera: for ``render`` and ``DifferentiableRenderer``.
 
     Raises:
         Error: for an elevation of pi/2 and more, or sizes that are not positive.

@@ -108,7 +108,7 @@ def compile(source: str, assets: Iterable[Path] = (), entry: str = "",
         shapes (dict): trailing shapes of tensor parameters, e.g. {"pos": [3]}; others are inferred.
 
     Returns:
-        Program
+        Program: called with arrays or tensors.
 
     Raises:
         Error: for a fault, with its line and column.

@@ -31,7 +31,7 @@ def read(path: Path, first: int = 0, count: int = -1) -> list[list[SceneObject]]
         count (int): how many at most; -1: all.
 
     Returns:
-        list of list of SceneObject
+        list of list of SceneObject: the objects of each scene.
 
     Raises:
         Error: if there is no shard, or one is damaged.
