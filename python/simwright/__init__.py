@@ -32,9 +32,10 @@ except ImportError as error:
         ) from error
     raise
 
-from ._core import Error, Finding, Mesh, TexturedMesh, __version__, set_threads, threads  # noqa: E402
+from ._core import Error, Finding, Mesh, TexturedMesh, set_threads, threads  # noqa: E402
 
 Error.__module__ = __name__
+__version__ = _core.__version__
 
 from . import assets, cameras, geometry, physics, render, rewards, scenes, skills, tasks  # noqa: E402
 from ._arguments import mesh  # noqa: E402
