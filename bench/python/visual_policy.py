@@ -3,11 +3,11 @@
     PYTHONPATH=build/python python bench/python/visual_policy.py -o out/visual_policy
     PYTHONPATH=build/python python bench/python/visual_policy.py -o out/visual_policy --resume
 
-It records demonstrations of the scripted expert, with the cameras "front" and "wrist", trains a
-small network and prints its success beside that of the shipped policy, which sees the simulated
-state. The network sees both images, the robot's joints, gripper opening and tool pose, and what to
-act on: the outline of the target in the first front image, as a click on a segmenter gives it
-(--goal outline), or the number in the instruction (--goal number). It predicts a chunk of poses of
+It records demonstrations of the scripted expert, with a camera above the robot's shoulder and one at
+the wrist, trains a small network and prints its success beside that of the shipped policy, which
+sees the simulated state. The network sees both images, the robot's joints, gripper opening and tool
+pose, and what to act on: the outline of the target in the first image of the shoulder, as a click on
+a segmenter gives it (--goal outline), or the number in the instruction (--goal number). It predicts a chunk of poses of
 the tool relative to the present one (--actions tool), as in Chi et al., "Universal Manipulation
 Interface", RSS 2024, or of joints relative to the present ones (--actions joints), so that neither
 inputs nor actions know the object's pose.
@@ -34,13 +34,15 @@ import torch
 from torch import nn
 
 import simwright as sw
-from simwright import demonstrations, envs
+from simwright import cameras, demonstrations, envs
 
 BLOCK = 20
 # The arm arrives at a commanded pose about three steps later (at joints: one).
 LEAD = 3
 NUMBERS = 8
-CAMERAS = ("front", "wrist")
+CAMERAS = ("shoulder", "wrist")
+# Strides of the convolutions of a camera's network.
+STRIDES = {"shoulder": (2, 2, 2, 1), "wrist": (2, 2, 1, 1)}
 
 
 def body(joints, opening, tool):
@@ -111,6 +113,13 @@ class PushedExpert:
         return action
 
 
+def cameras_of(told):
+    """Returns the cameras: the shoulder's sees the front of furniture, which "front" does not."""
+    return [cameras.camera("shoulder", position=(-0.3, 0.25, 1.25), target=(0.7, 0.15, 0.3),
+                           mount="robot", width=told.image_size * 3 // 2,
+                           height=told.image_size * 3 // 2, vertical_fov=1.0), "wrist"]
+
+
 def record(told, folder):
     """Records the demonstrations that are missing; returns the paths of all blocks."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -122,11 +131,11 @@ def record(told, folder):
             continue
         began = time.monotonic()
         count = min(BLOCK, told.demos - block * BLOCK)
-        rows = {key: [] for key in ("front", "wrist", "bodies", "targets", "joints", "lengths",
+        rows = {key: [] for key in (*CAMERAS, "bodies", "targets", "joints", "lengths",
                                     "outlines", "numbers", "states", "pushed")}
         expert = PushedExpert(told.pushes, [told.seed, block])
         for episode in demonstrations.record(
-                told.skill, count, policy=expert, image_size=told.image_size, look=told.look,
+                told.skill, count, policy=expert, cameras=cameras_of(told), image_size=told.image_size, look=told.look,
                 images=["rgb", "segmentation"], seed=told.seed + block, progress=False,
                 **({"instances": told.instances} if told.instances else {})):
             for name in CAMERAS:
@@ -138,7 +147,7 @@ def record(told, folder):
             rows["states"].append(episode.states[:-1])
             rows["pushed"].append(np.array(expert.pushed))
             rows["lengths"].append([len(episode)])
-            first = episode.images["front_segmentation"][:1]
+            first = episode.images["shoulder_segmentation"][:1]
             rows["outlines"].append(outline(first, episode.legend))
             rows["numbers"].append(number_of(episode.instruction)[None])
         partial = path.with_suffix(".partial.npz")
@@ -208,8 +217,8 @@ class VisualPolicy(nn.Module):
     def __init__(self, chunk, goal, state_size, motion_size):
         super().__init__()
         self.chunk, self.goal = chunk, goal
-        self.eyes = nn.ModuleList(self._eye(3 + (goal == "outline" and name == "front"))
-                                  for name in CAMERAS)
+        self.eyes = nn.ModuleList(self._eye(3 + (goal == "outline" and name == CAMERAS[0]),
+                                            STRIDES[name]) for name in CAMERAS)
         size = 2 * 3 * 64 + 17 + (NUMBERS if goal == "number" else 0)
         self.trunk = nn.Sequential(nn.Linear(size, 512), nn.ReLU(), nn.Linear(512, 512), nn.ReLU())
         self.head = nn.Linear(512, (motion_size + 1) * chunk)
@@ -219,9 +228,9 @@ class VisualPolicy(nn.Module):
             self.register_buffer(name, torch.ones(shape))
 
     @staticmethod
-    def _eye(channels):
+    def _eye(channels, strides):
         layers = []
-        for width, stride in ((32, 2), (64, 2), (64, 1), (64, 1)):
+        for width, stride in zip((32, 64, 64, 64), strides):
             layers += [nn.Conv2d(channels, width, 3, stride, 1), nn.GroupNorm(8, width), nn.ReLU()]
             channels = width
         return nn.Sequential(*layers)
@@ -244,7 +253,7 @@ class VisualPolicy(nn.Module):
         parts = [(bodies - self.body_mean) / self.body_scale]
         for name, image, eye in zip(CAMERAS, images, self.eyes):
             pixels = image.permute(0, 3, 1, 2).float() / 255 - 0.5
-            if self.goal == "outline" and name == "front":
+            if self.goal == "outline" and name == CAMERAS[0]:
                 pixels = torch.cat([pixels, outlines[:, None].float()], dim=1)
             if shift:
                 side = pixels.shape[-1]
@@ -313,7 +322,7 @@ class _Sight:
     def __init__(self, env, observation):
         self._env = env
         told = demonstrations.describe(env)
-        first = observation["front_segmentation"][None]
+        first = observation["shoulder_segmentation"][None]
         self._outline = torch.from_numpy(outline(first, told["legend"]))
         self._number = torch.from_numpy(number_of(told["instructions"][0])[None])
         self._base_from_world = np.linalg.inv(told["base"])
@@ -363,7 +372,7 @@ def measure(told, policy, path):
     results = json.loads(path.read_text()) if path.exists() else []
     env = envs.SkillEnv(cell=told.skill, split="unseen",
                         action_space="absolute" if told.actions == "tool" else "joint_targets",
-                        cameras=CAMERAS, image_size=told.image_size, look=told.look,
+                        cameras=cameras_of(told), image_size=told.image_size, look=told.look,
                         images=["rgb", "segmentation"])
     observation, _ = env.reset(seed=told.seed)
     for episode in range(told.episodes):
@@ -383,7 +392,7 @@ def main():
     add("--skill", default="open_drawer", help="a skill of the Panda")
     add("--demos", type=int, default=200, help="number of demonstrations")
     add("--instances", type=int, default=None, help="of the objects; default: the skill's")
-    add("--image-size", type=int, default=64, help="pixels a side")
+    add("--image-size", type=int, default=64, help="pixels a side at the wrist; the shoulder's are larger")
     add("--look", choices=["wide"], default=None, help="randomises looks")
     add("--goal", choices=["outline", "number"], default="outline", help="what to act on")
     add("--pushes", type=float, default=0.02, help="probability that a push starts at a step")
