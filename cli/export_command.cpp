@@ -172,8 +172,9 @@ void AddMotionOptions(CLI::App* command, workflows::ExportRequest* motions) {
 void AddRecordingOptions(CLI::App* command, const std::shared_ptr<ExportFlags>& flags) {
   workflows::ImageRecordingRequest& recording = flags->recording;
   command
-      ->add_option("--cameras", recording.cameras,
-                   "Demonstrations with images: front, wrist, both with a comma, or none")
+      ->add_option(
+          "--cameras", recording.cameras,
+          "Demonstrations with images: front, wrist, shoulder, several with commas, or none")
       ->default_str("front,wrist; robomimic: no images")
       ->each([flags](const std::string&) { flags->stated_cameras = true; });
   command->add_option("--image-size", recording.image_size, "Pixels a side of the images")

@@ -90,11 +90,16 @@ std::vector<render::CameraSpec> DefaultCameras(int width, int height) {
   wrist.mount_from_camera =
       render::LookAt({-0.10, 0.0, -0.06}, {0.0, 0.0, 0.05}, -Eigen::Vector3d::UnitX());
   wrist.vertical_fov = 70.0 * kDegree;
-  for (render::CameraSpec* camera : {&front, &wrist}) {
+  render::CameraSpec shoulder;
+  shoulder.name = "shoulder";
+  shoulder.mount = "robot";
+  shoulder.mount_from_camera = render::LookAt({-0.30, 0.25, 1.25}, {0.70, 0.15, 0.30});
+  shoulder.vertical_fov = 1.0;
+  for (render::CameraSpec* camera : {&front, &wrist, &shoulder}) {
     camera->width = width;
     camera->height = height;
   }
-  return {front, wrist};
+  return {front, wrist, shoulder};
 }
 
 EpisodeCameras::EpisodeCameras(std::shared_ptr<const Skill> skill,

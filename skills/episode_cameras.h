@@ -25,7 +25,8 @@ struct EpisodeCamerasOptions {
 };
 
 // Returns "front", which stands beside the robot and sees the gripper and the front of the objects
-// before it, and "wrist", which is fixed to the hand and sees the fingers and what is between them.
+// before it, "wrist", which is fixed to the hand and sees the fingers and what is between them, and
+// "shoulder", which is above the robot's base and sees the side of furniture that faces the robot.
 std::vector<render::CameraSpec> DefaultCameras(int width = 128, int height = 128);
 
 // The cameras of a skill's episodes, with the visual shapes that they see; made once. Immutable and

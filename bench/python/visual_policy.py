@@ -115,9 +115,8 @@ class PushedExpert:
 
 def cameras_of(told):
     """Returns the cameras: the shoulder's sees the front of furniture, which "front" does not."""
-    return [cameras.camera("shoulder", position=(-0.3, 0.25, 1.25), target=(0.7, 0.15, 0.3),
-                           mount="robot", width=told.image_size * 3 // 2,
-                           height=told.image_size * 3 // 2, vertical_fov=1.0), "wrist"]
+    side = told.image_size * 3 // 2
+    return [cameras.defaults(side, side)["shoulder"], "wrist"]
 
 
 def record(told, folder):

@@ -32,7 +32,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--episodes", type=int, default=50, help="number of episodes to keep")
     add("--format", required=True, choices=list(_FORMATS), help="of the data set")
     add("-o", "--output", required=True, help="folder (lerobot) or file (mcap, robomimic)")
-    add("--cameras", default="front,wrist", help="front, wrist, both with a comma, or none")
+    add("--cameras", default="front,wrist", help="front, wrist, shoulder, several with commas, or none")
     add("--image-size", type=int, default=128, help="pixels a side")
     add("--look", choices=["none", "wide"], default="none", help="randomised look")
     add("--policy", choices=["expert", "shipped"], default=None,

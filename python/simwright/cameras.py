@@ -25,7 +25,8 @@ KINDS = ("rgb", "depth", "segmentation", "normal")
 
 
 def defaults(width: int = 128, height: int = 128) -> dict[str, CameraSpec]:
-    """Returns the cameras "front" (beside the robot) and "wrist" (on the hand), by name.
+    """Returns the cameras "front" (beside the robot), "wrist" (on the hand) and "shoulder" (above the
+    robot's base, towards the side of furniture that faces it), by name.
 
     Args:
         width, height (int): pixels.
@@ -93,7 +94,7 @@ def look(value: Look = None) -> LookRanges:
 
 
 def chosen(cameras: Cameras, size: ImageSize) -> list[CameraSpec]:
-    """Returns the specs of names and specs; "front" and "wrist" get `size` pixels a side."""
+    """Returns the specs of names and specs; named ones get `size` pixels a side."""
     sides: Any = (size, size) if np.isscalar(size) else size
     width, height = sides
     known = defaults(width, height)
@@ -104,5 +105,6 @@ def chosen(cameras: Cameras, size: ImageSize) -> list[CameraSpec]:
         elif one in known:
             specs.append(known[one])
         else:
-            raise _core.Error(f"cameras: there is no '{one}' (give front, wrist, or a camera(...))")
+            raise _core.Error(f"cameras: there is no '{one}' (give {', '.join(known)}, or a "
+                              "camera(...))")
     return specs

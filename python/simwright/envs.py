@@ -49,10 +49,11 @@ class SkillEnv(Worlds, gymnasium.Env):
         robot (str): panda, panda_on_base, or a URDF with its side file; None: the cell's.
         easy_starts (bool): a share of episodes starts at the target, or with its joint partly open.
         episode_seconds (float): s, then the episode is truncated.
-        cameras (list): "front", "wrist" or ``simwright.cameras.camera(...)``. With cameras the
-            observation is a dict of "state" and the images: NAME (H, W, 3) uint8 RGB, NAME_depth
-            (H, W) float32, m, NAME_segmentation (H, W) int32, NAME_normal (H, W, 3) float32, world.
-        image_size (int, or width and height): pixels, of "front" and "wrist".
+        cameras (list): "front", "wrist", "shoulder" or ``simwright.cameras.camera(...)``. With
+            cameras the observation is a dict of "state" and the images: NAME (H, W, 3) uint8 RGB,
+            NAME_depth (H, W) float32, m, NAME_segmentation (H, W) int32, NAME_normal (H, W, 3)
+            float32, world.
+        image_size (int, or width and height): pixels, of cameras given by name.
         images (list): kinds of images: "rgb", "depth", "segmentation", "normal".
         look: how the look is randomised by the seed: None, "wide", or see ``simwright.cameras``.
         render_mode (str): None or "rgb_array".

@@ -382,3 +382,17 @@ def test_gymnasiums_own_vector_environments_work_in_processes():
     observations, _ = vector.reset(seed=1)
     assert np.isfinite(vector.step(np.zeros((2, 7), np.float32))[0]).all()
     vector.close()
+
+
+def test_the_shoulder_sees_the_drawer_that_the_front_camera_does_not():
+    env = envs.SkillEnv(**DRAWER, cameras=["front", "shoulder"], image_size=48,
+                        images=["segmentation"])
+    observation, _ = env.reset(seed=2)
+    seen = {"front": [], "shoulder": []}
+    for _ in range(8):
+        for name, counts in seen.items():
+            drawer = [label for label, what in env.camera(name)["legend"].items() if "/" in what]
+            counts.append(int(np.isin(observation[f"{name}_segmentation"], drawer).sum()))
+        observation, _ = env.reset()
+    assert min(seen["shoulder"]) > 20, seen
+    assert np.median(seen["shoulder"]) > 2 * np.median(seen["front"]), seen

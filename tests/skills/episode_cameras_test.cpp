@@ -174,7 +174,7 @@ TEST(EpisodeCameras, TheWristMovesWithForwardKinematics) {
     const Eigen::Isometry3d third =
         base * skill.robot->LinkPoses(arm, 0.0)[static_cast<std::size_t>(link)];
     EXPECT_TRUE(
-        view.Camera(2).world_from_camera.isApprox(third * specs[2].mount_from_camera, 1e-9));
+        view.Camera(3).world_from_camera.isApprox(third * specs[3].mount_from_camera, 1e-9));
     // The fingertips are symmetric about the middle of the image, and move apart with the leader.
     const Eigen::AlignedBox2d fingers = LabelBox(Seen(view, 1), specs[1], kGripperLabel);
     EXPECT_NEAR(fingers.center().x(), 32.0, 1.0);
@@ -212,7 +212,9 @@ TEST(EpisodeCameras, BatchesAndThreadsGiveTheSameBytes) {
   const auto skill = CameraSkill({PickUpCup(), PickUpCup("mug", 0.035)});
   EpisodeCamerasOptions options;
   options.look = render::LookRanges::Wide();
-  const auto cameras = CamerasOn(skill, DefaultCameras(50, 46), options);
+  std::vector<render::CameraSpec> specs = DefaultCameras(50, 46);
+  specs.resize(2);
+  const auto cameras = CamerasOn(skill, specs, options);
   SkillEnvironment environment(skill, 3);
   rl::Rows observations;
   environment.Reset(11, &observations);
@@ -284,7 +286,7 @@ TEST(EpisodeCameras, BadInputIsOneClearLine) {
   EXPECT_NE(error_of(DefaultCameras(), options).find("walls is 2"), std::string::npos);
   EpisodeView view(CamerasOn(skill));
   EXPECT_THROW(view.Begin(1, 0), core::Error);
-  EXPECT_THROW(view.Render(2, {}), core::Error);
+  EXPECT_THROW(view.Render(3, {}), core::Error);
   EXPECT_THROW(view.cameras().Find("side"), core::Error);
   EXPECT_THROW(view.Pose(Episode(*skill)), core::Error);
   std::vector<EpisodeView> views(1, view);
