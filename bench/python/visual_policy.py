@@ -218,8 +218,9 @@ class VisualPolicy(nn.Module):
         self.chunk, self.goal = chunk, goal
         self.eyes = nn.ModuleList(self._eye(3 + (goal == "outline" and name == CAMERAS[0]),
                                             STRIDES[name]) for name in CAMERAS)
-        size = 2 * 3 * 64 + 17 + (NUMBERS if goal == "number" else 0)
-        self.trunk = nn.Sequential(nn.Linear(size, 512), nn.ReLU(), nn.Linear(512, 512), nn.ReLU())
+        size = 2 * 3 * 48 + 17 + (NUMBERS if goal == "number" else 0)
+        self.trunk = nn.Sequential(nn.Linear(size, 512), nn.ReLU(), nn.Dropout(0.1),
+                                   nn.Linear(512, 512), nn.ReLU())
         self.head = nn.Linear(512, (motion_size + 1) * chunk)
         self.state = nn.Linear(512, state_size)
         for name, shape in (("body_mean", (17,)), ("body_scale", (17,)),
@@ -229,15 +230,17 @@ class VisualPolicy(nn.Module):
     @staticmethod
     def _eye(channels, strides):
         layers = []
-        for width, stride in zip((32, 64, 64, 64), strides):
-            layers += [nn.Conv2d(channels, width, 3, stride, 1), nn.GroupNorm(8, width), nn.ReLU()]
+        for width, stride in zip((16, 32, 48, 48), strides):
+            layers += [nn.Conv2d(channels, width, 3, stride, 1), nn.ReLU()]
             channels = width
-        return nn.Sequential(*layers)
+        # Five times as fast on the processor as 32 and 64 channels with GroupNorm, channels first.
+        return nn.Sequential(*layers).to(memory_format=torch.channels_last)
 
     @staticmethod
     def _points(features):
         """Returns each feature map's mean, and its mean position by softmax over its pixels
         (N, 3 C)."""
+        features = features.contiguous()
         count, channels, height, width = features.shape
         weights = torch.softmax(features.flatten(2), dim=2).view(count, channels, height, width)
         rows = torch.linspace(-1, 1, height)
@@ -252,6 +255,8 @@ class VisualPolicy(nn.Module):
         parts = [(bodies - self.body_mean) / self.body_scale]
         for name, image, eye in zip(CAMERAS, images, self.eyes):
             pixels = image.permute(0, 3, 1, 2).float() / 255 - 0.5
+            if self.training:  # other colours
+                pixels = pixels * (0.8 + 0.4 * torch.rand(len(pixels), 3, 1, 1))
             if self.goal == "outline" and name == CAMERAS[0]:
                 pixels = torch.cat([pixels, outlines[:, None].float()], dim=1)
             if shift:
@@ -259,6 +264,7 @@ class VisualPolicy(nn.Module):
                 pixels = nn.functional.pad(pixels, [shift] * 4, mode="replicate")
                 top, left = torch.randint(0, 2 * shift + 1, (2,)).tolist()
                 pixels = pixels[:, :, top:top + side, left:left + side]
+            pixels = pixels.contiguous(memory_format=torch.channels_last)
             parts.append(self._points(eye(pixels)))
         if self.goal == "number":
             parts.append(numbers)
@@ -302,6 +308,7 @@ def train(told, data, path):
             state_loss = (estimated - states).abs().mean()
             optimizer.zero_grad()
             (loss + told.state_weight * state_loss).backward()
+            nn.utils.clip_grad_norm_(policy.parameters(), 5.0)
             optimizer.step()
             losses.append([loss.item(), state_loss.item()])
         state = {"epoch": epoch + 1, "seconds": time.monotonic() - began}
@@ -400,9 +407,9 @@ def main():
     add("--actions", choices=["tool", "joints"], default="tool", help="what the network predicts")
     add("--chunk", type=int, default=8, help="actions predicted at once, 0.05 s each")
     add("--execute", type=int, default=4, help="of them that are executed")
-    add("--epochs", type=int, default=100, help="at most")
+    add("--epochs", type=int, default=140, help="at most")
     add("--minutes", type=float, default=60.0, help="of training, at most")
-    add("--batch", type=int, default=128, help="frames")
+    add("--batch", type=int, default=64, help="frames")
     add("--episodes", type=int, default=100, help="of the measurement")
     add("--threads", type=int, default=2, help="of the training")
     add("--seed", type=int, default=1, help="of all stages")
