@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 
 namespace simwright::render {
 namespace {
@@ -214,7 +215,10 @@ ForwardBuffers RenderForward(const Scene& scene, const core::Camera& camera,
   buffers.triangle.assign(count, -1);
   if (options.shaded) buffers.color = core::Image(camera.width, camera.height, 4);
   const RowRenderer renderer(scene, camera, options, &buffers);
-  core::ParallelFor(camera.height, [&](int y) { renderer.Draw(y); });
+  core::ParallelFor(camera.height, [&](int y) {
+    if (options.cancellable) core::CheckCancelled();
+    renderer.Draw(y);
+  });
   return buffers;
 }
 

@@ -18,6 +18,7 @@ struct ForwardOptions {
   SphericalHarmonicsLight light = SphericalHarmonicsLight::Studio({0.4f, -0.5f, 0.75f});
   int occlusion_rays = 0;         // ambient occlusion rays per hit; 0: none. Previews use 8
   float occlusion_reach = 0.25f;  // share of the scene's diagonal within which geometry occludes
+  bool cancellable = false;       // Ctrl-C ends the image with core::Cancelled
 };
 
 // One value per pixel, rows from the top, (height x width).

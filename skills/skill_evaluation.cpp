@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "skills/episode.h"
 #include "skills/observation.h"
 #include "skills/scripted_expert.h"
@@ -81,6 +82,7 @@ SkillEvaluation EvaluateWith(const Skill& skill, const Run& run,
     Episode episode(skill);
     for (size_t i = static_cast<size_t>(thread); i < starts.size();
          i += static_cast<size_t>(threads)) {
+      core::CheckCancelled();
       evaluation.episodes[i] = run(starts[i], &episode);
     }
   });

@@ -79,12 +79,23 @@ InterruptScope::~InterruptScope() {
   installed = false;
 }
 
+ExclusiveUse::ExclusiveUse(std::atomic_flag* used, const char* what) : used_(used) {
+  if (used->test_and_set()) {
+    throw core::Error("is in use by another thread", what, "make one for each thread");
+  }
+}
+
 core::ProgressListener ListenerOf(nb::handle report) {
   return [report](const core::ProgressState& state) {
     const nb::gil_scoped_acquire acquired;
     try {
       report(state.name, state.detail, state.done, state.total, state.elapsed);
     } catch (nb::python_error& error) {
+      // The call itself raises it, once the work has stopped.
+      if (error.matches(PyExc_KeyboardInterrupt)) {
+        core::RequestCancel();
+        return;
+      }
       error.discard_as_unraisable(report);
     }
   };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <csignal>
 #include <type_traits>
 
@@ -35,13 +36,31 @@ auto RunLong(const nb::object& report, const Work& work) {
   const core::ProgressListener listener =
       report.is_none() ? core::ProgressListener() : ListenerOf(report);
   const nb::gil_scoped_release released;
-  if (!listener) {
-    core::Progress silent;
-    return work(&silent);
-  }
-  core::Progress progress(listener);
-  return work(&progress);
+  const auto run = [&] {
+    if (!listener) {
+      core::Progress silent;
+      return work(&silent);
+    }
+    core::Progress progress(listener);
+    return work(&progress);
+  };
+  auto result = run();
+  core::CheckCancelled();  // work that reports what it did not do ends normally
+  return result;
 }
+
+// Lets one thread at a time use an object whose calls release the GIL: the constructor throws
+// core::Error where another thread is in a call of the same object.
+class ExclusiveUse {
+ public:
+  ExclusiveUse(std::atomic_flag* used, const char* what);
+  ~ExclusiveUse() { used_->clear(); }
+  ExclusiveUse(const ExclusiveUse&) = delete;
+  ExclusiveUse& operator=(const ExclusiveUse&) = delete;
+
+ private:
+  std::atomic_flag* used_;
+};
 
 // Makes Python raise simwright.Error for core::Error and KeyboardInterrupt for core::Cancelled, and
 // adds the exceptions to `module`.

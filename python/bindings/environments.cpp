@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/calls.h"
 #include "python/bindings/episodes.h"
 #include "skills/observation.h"
 #include "skills/scripted_expert.h"
@@ -64,6 +65,7 @@ void VectorEpisodes::RequireStarted() const {
 void VectorEpisodes::AttachCameras(std::shared_ptr<const skills::EpisodeCameras> cameras,
                                    const std::vector<std::string>& names,
                                    const std::vector<std::string>& kinds) {
+  const ExclusiveUse use(&used_, kName);
   RequireCamerasOf(environment_.skill(), *cameras);
   last_choice_ = ImageChoice::Of(*cameras, names, kinds);
   cameras_ = std::move(cameras);
@@ -73,6 +75,7 @@ void VectorEpisodes::AttachCameras(std::shared_ptr<const skills::EpisodeCameras>
 }
 
 FloatArray VectorEpisodes::Reset(std::uint64_t seed) {
+  const ExclusiveUse use(&used_, kName);
   rl::Rows observations;
   {
     const nb::gil_scoped_release released;
@@ -85,6 +88,7 @@ FloatArray VectorEpisodes::Reset(std::uint64_t seed) {
 }
 
 nb::tuple VectorEpisodes::Step(const RowsArgument& actions) {
+  const ExclusiveUse use(&used_, kName);
   RequireStarted();
   RequireShape(actions, static_cast<size_t>(size()), static_cast<size_t>(action_size()), "actions");
   {
@@ -117,6 +121,7 @@ void VectorEpisodes::LookAtEnd(int index, const skills::Episode& episode) {
 
 nb::dict VectorEpisodes::Images(const std::vector<std::string>& names,
                                 const std::vector<std::string>& kinds) {
+  const ExclusiveUse use(&used_, kName);
   RequireStarted();
   RequireCameras(cameras_);
   EpisodeImages images(*cameras_, size(), ImageChoice::Of(*cameras_, names, kinds));
@@ -128,12 +133,14 @@ nb::dict VectorEpisodes::Images(const std::vector<std::string>& names,
 }
 
 nb::object VectorEpisodes::LastImages() {
+  const ExclusiveUse use(&used_, kName);
   RequireCameras(cameras_);
   if (!EndedOne() || !last_images_) return nb::none();
   return std::exchange(last_images_, nullptr)->Take(false);
 }
 
 nb::object VectorEpisodes::Demonstrate() const {
+  const ExclusiveUse use(&used_, kName);
   RequireStarted();
   rl::Rows actions;
   if (!environment_.Demonstrate(&actions)) return nb::none();
@@ -150,6 +157,7 @@ void SingleEpisode::RequireStarted() const {
 }
 
 void SingleEpisode::AttachCameras(std::shared_ptr<const skills::EpisodeCameras> cameras) {
+  const ExclusiveUse use(&used_, kName);
   RequireCamerasOf(*skill_, *cameras);
   cameras_ = std::move(cameras);
   view_.emplace(cameras_);
@@ -163,6 +171,7 @@ FloatArray SingleEpisode::Observe() const {
 }
 
 FloatArray SingleEpisode::Begin(std::uint64_t seed, std::uint64_t index) {
+  const ExclusiveUse use(&used_, kName);
   {
     const nb::gil_scoped_release released;
     rng_ = core::StreamRng(seed, index);
@@ -175,6 +184,7 @@ FloatArray SingleEpisode::Begin(std::uint64_t seed, std::uint64_t index) {
 }
 
 FloatArray SingleEpisode::BeginAfter(const SingleEpisode& previous) {
+  const ExclusiveUse use(&used_, kName);
   previous.RequireStarted();
   {
     const nb::gil_scoped_release released;
@@ -189,6 +199,7 @@ FloatArray SingleEpisode::BeginAfter(const SingleEpisode& previous) {
 }
 
 nb::tuple SingleEpisode::Step(const ActionArgument& action) {
+  const ExclusiveUse use(&used_, kName);
   RequireStarted();
   if (action.shape(0) != static_cast<size_t>(ActionSize(*skill_))) {
     throw core::Error("has " + std::to_string(action.shape(0)) + " numbers", "action",
@@ -213,6 +224,7 @@ skills::EpisodeView& SingleEpisode::PosedView() {
 
 nb::dict SingleEpisode::Images(const std::vector<std::string>& names,
                                const std::vector<std::string>& kinds) {
+  const ExclusiveUse use(&used_, kName);
   const skills::EpisodeView& view = PosedView();
   EpisodeImages images(*cameras_, 1, ImageChoice::Of(*cameras_, names, kinds));
   {
@@ -223,6 +235,7 @@ nb::dict SingleEpisode::Images(const std::vector<std::string>& names,
 }
 
 nb::dict SingleEpisode::Camera(const std::string& name) {
+  const ExclusiveUse use(&used_, kName);
   const core::Camera camera = PosedView().Camera(cameras_->Find(name));
   nb::dict dict;
   dict["pose"] = Eigen::Matrix4d(camera.world_from_camera.matrix());
@@ -232,6 +245,7 @@ nb::dict SingleEpisode::Camera(const std::string& name) {
 }
 
 nb::object SingleEpisode::ExpertAction() const {
+  const ExclusiveUse use(&used_, kName);
   RequireStarted();
   if (skill_->options.action != skills::ActionSpace::kTargetFrame) return nb::none();
   std::vector<float> action(static_cast<size_t>(ActionSize(*skill_)));
@@ -240,6 +254,7 @@ nb::object SingleEpisode::ExpertAction() const {
 }
 
 nb::dict SingleEpisode::State() const {
+  const ExclusiveUse use(&used_, kName);
   RequireStarted();
   const tasks::WorldState& state = episode_.state();
   const skills::SkillVariant& variant =

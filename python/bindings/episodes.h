@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -58,6 +59,8 @@ class VectorEpisodes {
   rl::Rows actions_;
   rl::StepBatch batch_;
   bool started_ = false;
+  static constexpr const char* kName = "environment";
+  mutable std::atomic_flag used_;
 };
 
 // One episode at a time of one subtask.
@@ -93,6 +96,8 @@ class SingleEpisode {
   core::Rng rng_;
   int observation_size_ = 0;
   bool started_ = false;
+  static constexpr const char* kName = "environment";
+  mutable std::atomic_flag used_;
 };
 
 }  // namespace simwright::python

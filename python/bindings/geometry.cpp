@@ -7,6 +7,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "core/error.h"
+#include "geometry/closed_surface.h"
 #include "geometry/convex_decomposition.h"
 #include "geometry/mass_properties.h"
 #include "geometry/solid.h"
@@ -30,8 +32,15 @@ nb::tuple MakeSolid(const core::TriangleMesh& mesh, int face_budget, const nb::o
   return nb::make_tuple(std::move(solid.mesh), facts);
 }
 
+// Throws core::Error unless the surface is closed.
+void RequireClosed(const core::TriangleMesh& mesh, const char* what) {
+  if (geometry::IsClosed(mesh)) return;
+  throw core::Error("is not closed and oriented", what, "close it with geometry.make_solid");
+}
+
 nb::tuple Decompose(const core::TriangleMesh& solid, const geometry::DecompositionOptions& options,
                     const nb::object& report) {
+  RequireClosed(solid, "solid");
   geometry::ConvexDecomposition parts = RunLong(
       report, [&](core::Progress* /*progress*/) { return geometry::Decompose(solid, options); });
   nb::dict facts;
@@ -50,10 +59,20 @@ void BindGeometry(nb::module_& module) {
       .def_ro("mass", &MassProperties::mass, "kg")
       .def_ro("center_of_mass", &MassProperties::center_of_mass, "(3) m, in the mesh's frame")
       .def_ro("inertia", &MassProperties::inertia, "(3, 3) kg m^2, about the centre of mass");
-  module.def("solid_mass_properties", &geometry::SolidMassProperties, "mesh"_a, "density"_a,
-             nb::call_guard<nb::gil_scoped_release>());
-  module.def("hollow_mass_properties", &geometry::HollowMassProperties, "mesh"_a,
-             "wall_thickness"_a, "density"_a, nb::call_guard<nb::gil_scoped_release>());
+  module.def(
+      "solid_mass_properties",
+      [](const core::TriangleMesh& mesh, double density) {
+        RequireClosed(mesh, "mesh");
+        return geometry::SolidMassProperties(mesh, density);
+      },
+      "mesh"_a, "density"_a, nb::call_guard<nb::gil_scoped_release>());
+  module.def(
+      "hollow_mass_properties",
+      [](const core::TriangleMesh& mesh, double wall_thickness, double density) {
+        RequireClosed(mesh, "mesh");
+        return geometry::HollowMassProperties(mesh, wall_thickness, density);
+      },
+      "mesh"_a, "wall_thickness"_a, "density"_a, nb::call_guard<nb::gil_scoped_release>());
   module.def("shell_mass_properties", &geometry::ShellMassProperties, "mesh"_a, "wall_thickness"_a,
              "density"_a, nb::call_guard<nb::gil_scoped_release>());
   module.def("make_solid", &MakeSolid, "mesh"_a, "face_budget"_a, "report"_a = nb::none());

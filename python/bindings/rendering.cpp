@@ -1,3 +1,5 @@
+#include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -14,6 +16,7 @@
 #include "core/error.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/calls.h"
 #include "render/differentiable.h"
 #include "render/forward.h"
 
@@ -24,10 +27,26 @@ using nb::literals::operator""_a;
 using Matrix93 = Eigen::Matrix<double, 9, 3, Eigen::RowMajor>;
 using ImageArgument = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 
+constexpr int kMostPixels = 8192;       // a side
+constexpr int kMostSamples = 32;        // a side of a pixel
+constexpr int kMostOcclusion = 100000;  // rays of a hit
+
 void MakeCamera(core::Camera* self, int width, int height, double fx, double fy, double cx,
                 double cy, const Eigen::Matrix4d& pose) {
-  if (width < 1 || height < 1 || !(fx > 0.0) || !(fy > 0.0) || !pose.allFinite()) {
-    throw core::Error("needs pixels, focal lengths > 0 and a finite pose", "camera");
+  if (width < 1 || height < 1 || width > kMostPixels || height > kMostPixels) {
+    throw core::Error("width and height are " + std::to_string(width) + " and " +
+                          std::to_string(height) + " pixels, outside 1 to " +
+                          std::to_string(kMostPixels),
+                      "camera");
+  }
+  if (!(fx > 0.0 && fy > 0.0 && std::isfinite(fx + fy + cx + cy))) {
+    throw core::Error("needs focal lengths > 0 and a finite principal point, in pixels", "camera");
+  }
+  const Eigen::Matrix3d rotation = pose.topLeftCorner<3, 3>();
+  if (!pose.allFinite() || !rotation.isUnitary(1e-6) || rotation.determinant() < 0.0 ||
+      pose.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
+    throw core::Error("the pose is not a rotation and a translation", "camera",
+                      "give world from camera, (4, 4)");
   }
   new (self) core::Camera{width, height, fx, fy, cx, cy, Eigen::Isometry3d::Identity()};
   self->world_from_camera.matrix() = pose;
@@ -50,16 +69,36 @@ void BindCamera(nb::module_& module) {
             return Eigen::Matrix4d(camera.world_from_camera.matrix());
           },
           "(4, 4) world from camera, m");
-  module.def("orbit_camera", &core::OrbitCamera, "target"_a, "distance"_a, "elevation"_a,
-             "azimuth"_a, "vertical_fov"_a, "width"_a, "height"_a);
+  module.def(
+      "orbit_camera",
+      [](const Eigen::Vector3d& target, double distance, double elevation, double azimuth,
+         double vertical_fov, int width, int height) {
+        if (!target.allFinite() || !std::isfinite(distance + elevation + azimuth + vertical_fov)) {
+          throw core::Error("needs finite numbers", "orbit_camera");
+        }
+        return core::OrbitCamera(target, distance, elevation, azimuth, vertical_fov, width, height);
+      },
+      "target"_a, "distance"_a, "elevation"_a, "azimuth"_a, "vertical_fov"_a, "width"_a,
+      "height"_a);
+}
+
+void RequireSamples(int samples_per_side) {
+  if (samples_per_side >= 1 && samples_per_side <= kMostSamples) return;
+  throw core::Error(
+      "is " + std::to_string(samples_per_side) + ", outside 1 to " + std::to_string(kMostSamples),
+      "samples_per_side");
 }
 
 // Renders meshes in the world's frame.
 nb::dict Render(const std::vector<const core::TexturedMesh*>& meshes, const core::Camera& camera,
                 int samples_per_side, int occlusion_rays) {
-  render::ForwardBuffers buffers;
-  {
-    const nb::gil_scoped_release released;
+  RequireSamples(samples_per_side);
+  if (occlusion_rays < 0 || occlusion_rays > kMostOcclusion) {
+    throw core::Error(
+        "is " + std::to_string(occlusion_rays) + ", outside 0 to " + std::to_string(kMostOcclusion),
+        "occlusion_rays");
+  }
+  render::ForwardBuffers buffers = RunLong(nb::none(), [&](core::Progress* /*progress*/) {
     render::Scene scene;
     for (const core::TexturedMesh* mesh : meshes) scene.Add(mesh);
     scene.Commit();
@@ -67,8 +106,9 @@ nb::dict Render(const std::vector<const core::TexturedMesh*>& meshes, const core
     options.shaded = true;
     options.samples_per_side = samples_per_side;
     options.occlusion_rays = occlusion_rays;
-    buffers = render::RenderForward(scene, camera, options);
-  }
+    options.cancellable = true;
+    return render::RenderForward(scene, camera, options);
+  });
   const auto height = static_cast<size_t>(buffers.height),
              width = static_cast<size_t>(buffers.width);
   auto [normal, memory] = NewArray<float>({height, width, 3});
@@ -123,6 +163,7 @@ class BoundRenderer {
       const std::optional<
           nb::ndarray<const float, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>>& corner_uvs,
       bool lit, bool smooth_normals, bool render_normals, int samples_per_side, int edge_samples) {
+    RequireSamples(samples_per_side);
     render::DifferentiableObject object;
     object.mesh = mesh;
     if (colors) object.vertex_colors = ColorsOf(*colors);
@@ -142,17 +183,26 @@ class BoundRenderer {
   }
 
   void SetVertices(const PointsArgument& vertices) {
+    const ExclusiveUse use(&used_, kName);
     renderer_->SetVertices(0, PointsOf(vertices));
   }
-  void SetColors(const PointsArgument& colors) { renderer_->SetVertexColors(0, ColorsOf(colors)); }
-  void SetTexture(const ImageArgument& texture) { renderer_->SetTexture(0, ImageOf(texture)); }
+  void SetColors(const PointsArgument& colors) {
+    const ExclusiveUse use(&used_, kName);
+    renderer_->SetVertexColors(0, ColorsOf(colors));
+  }
+  void SetTexture(const ImageArgument& texture) {
+    const ExclusiveUse use(&used_, kName);
+    renderer_->SetTexture(0, ImageOf(texture));
+  }
   void SetLight(const Matrix93& radiance) {
+    const ExclusiveUse use(&used_, kName);
     render::SphericalHarmonicsLight light;
     light.radiance = radiance.cast<float>();
     renderer_->SetLight(light);
   }
 
   nb::dict Render(const core::Camera& camera, std::uint64_t seed) {
+    const ExclusiveUse use(&used_, kName);
     const render::DifferentiableBuffers* buffers = nullptr;
     {
       const nb::gil_scoped_release released;
@@ -170,6 +220,7 @@ class BoundRenderer {
                     const std::optional<ImageArgument>& mask,
                     const std::optional<ImageArgument>& depth,
                     const std::optional<ImageArgument>& normal) {
+    const ExclusiveUse use(&used_, kName);
     render::DifferentiableBuffers gradient;
     if (color) gradient.color = ImageOf(*color);
     if (mask) gradient.mask = ImageOf(*mask);
@@ -198,8 +249,10 @@ class BoundRenderer {
     return colors;
   }
 
+  static constexpr const char* kName = "renderer";
   std::unique_ptr<render::DifferentiableRenderer> renderer_;
   render::SceneGradients gradients_;
+  std::atomic_flag used_;
 };
 
 }  // namespace

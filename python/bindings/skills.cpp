@@ -49,6 +49,22 @@ nb::ndarray<nb::numpy, float> Act(const rl::Policy& policy, const RowsArgument& 
   return array;
 }
 
+nb::ndarray<nb::numpy, float> ActOn(const rl::Policy& policy, nb::handle observations) {
+  const char* what = "observations";
+  nb::object rows;
+  try {
+    rows = nb::module_::import_("numpy").attr("ascontiguousarray")(observations,
+                                                                   "dtype"_a = "float32");
+  } catch (const nb::python_error&) {
+    throw core::Error("are not an array of numbers", what, "give (n, O) float32");
+  }
+  if (nb::cast<int>(rows.attr("ndim")) != 2) {
+    throw core::Error("have the shape " + std::string(nb::str(rows.attr("shape")).c_str()), what,
+                      "give (n, O), one row per observation");
+  }
+  return Act(policy, nb::cast<RowsArgument>(rows));
+}
+
 nb::dict CellDict(const workflows::SuiteCell& cell) {
   nb::dict dict;
   dict["name"] = cell.name;
@@ -73,7 +89,7 @@ nb::dict EvaluationDict(const skills::SkillEvaluation& evaluation) {
 void BindPolicy(nb::module_& module) {
   nb::class_<rl::Policy>(module, "Policy", "A trained policy, frozen; thread-safe.")
       .def(
-          "act", &Act, "observations"_a,
+          "act", &ActOn, "observations"_a,
           "Returns the mean actions (n, A) float32 in [-1, 1] of `observations` (n, O) float32.\n\n"
           "Raises:\n    Error: for another number of columns.")
       .def_prop_ro("observation_size", &rl::Policy::observation_size, "O")

@@ -1,6 +1,7 @@
 """Gymnasium environments: semantics, equality with the compiled loop, faults."""
 
 import multiprocessing
+import threading
 
 import gymnasium
 import numpy as np
@@ -396,3 +397,25 @@ def test_the_shoulder_sees_the_drawer_that_the_front_camera_does_not():
         observation, _ = env.reset()
     assert min(seen["shoulder"]) > 20, seen
     assert np.median(seen["shoulder"]) > 2 * np.median(seen["front"]), seen
+
+
+def test_environments_are_for_one_thread_at_a_time():
+    env = envs.SkillVectorEnv(4, **DRAWER)
+    env.reset(seed=1)
+    refused = []
+
+    def work(call):
+        for _ in range(40):
+            try:
+                call()
+            except sw.Error as error:
+                refused.append(str(error))
+
+    actions = np.zeros(env.action_space.shape, np.float32)
+    threads = [threading.Thread(target=work, args=(call,)) for call in
+               (lambda: env.reset(seed=2), lambda: env.step(actions), lambda: env.step(actions))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert refused and all("another thread" in text for text in refused)

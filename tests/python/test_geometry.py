@@ -84,3 +84,21 @@ def test_errors_say_where(cube):
     assert "\n" not in str(caught.value)
     with pytest.raises(sw.Error):
         sw.geometry.read_mesh("/nowhere/missing.obj")
+
+
+def test_open_surfaces_are_refused():
+    corners = [[x, y, z] for x in (0, 1) for y in (0, 2) for z in (0, 3)]
+    faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6],
+             [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+    closed = sw.geometry.mass_properties(sw.mesh(corners, faces), 1000.0)
+    assert abs(closed.mass - 6000.0) < 1e-9
+    for mesh in (sw.mesh(corners, faces[:-1]), sw.mesh(corners, [faces[0][::-1]] + faces[1:])):
+        for call in (lambda: sw.geometry.mass_properties(mesh, 1000.0),
+                     lambda: sw.geometry.mass_properties(mesh, 1000.0, wall_thickness=0.01),
+                     lambda: sw.geometry.decompose(mesh, progress=False)):
+            with pytest.raises(sw.Error, match="not closed"):
+                call()
+    # A soup in which each face has vertices of its own bounds the same volume.
+    soup = sw.mesh([corners[v] for face in faces for v in face],
+                   [[3 * f, 3 * f + 1, 3 * f + 2] for f in range(12)])
+    assert abs(sw.geometry.mass_properties(soup, 1000.0).mass - 6000.0) < 1e-9

@@ -6,6 +6,8 @@ import subprocess
 import sys
 import time
 
+import pytest
+
 LONG = """
 import sys, simwright as sw
 print("ready", flush=True)
@@ -69,5 +71,42 @@ def test_ctrl_c_stops_the_call_that_outlives_another(tmp_path):
     try:
         assert child.stdout.readline().strip() == "first done, second stopped"
         assert child.wait(timeout=60) == 0
+    finally:
+        child.kill()
+
+
+STOPPED = """
+import sys, simwright as sw
+calls = {
+    "evaluate": lambda: sw.skills.evaluate("open_drawer", 100000, split="train", progress=False),
+    "library": lambda: sw.assets.library("microwave", sys.argv[2], count=200, progress=True),
+    "render": lambda: sw.render.render(
+        sw.mesh([[-9, -9, 0], [9, -9, 0], [0, 9, 0]], [[0, 1, 2]]),
+        sw.render.orbit_camera((0, 0, 0), 2.0, 0.5, 0.0, 1.0, 2000, 2000), samples_per_side=8,
+        occlusion_rays=1000),
+}
+sw.skills.evaluate("open_drawer", 1, split="train", progress=False)  # makes the objects
+print("ready", flush=True)
+try:
+    calls[sys.argv[1]]()
+    print("went on", flush=True)
+except KeyboardInterrupt:
+    print("stopped", flush=True)
+"""
+
+
+@pytest.mark.parametrize("call", ["evaluate", "library", "render"])
+def test_ctrl_c_stops_within_seconds(call, tmp_path):
+    child = subprocess.Popen([sys.executable, "-c", STOPPED, call, str(tmp_path / "out")], text=True,
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=dict(os.environ))
+    try:
+        assert child.stdout.readline().strip() == "ready"
+        time.sleep(2.0)
+        child.send_signal(signal.SIGINT)
+        start = time.monotonic()
+        printed, errors = child.communicate(timeout=60)
+        assert printed.strip() == "stopped" and child.returncode == 0
+        assert time.monotonic() - start < 20.0
+        assert "Exception ignored" not in errors
     finally:
         child.kill()

@@ -1,5 +1,7 @@
 """The renderers against closed forms and finite differences."""
 
+import threading
+
 import numpy as np
 import pytest
 
@@ -111,3 +113,53 @@ def test_bad_arguments(cube):
         renderer.set_vertices(np.zeros((3, 3)))
     with pytest.raises(sw.Error, match="colors"):
         sw.render.DifferentiableRenderer(cube, colors=np.zeros((3, 3)))
+
+
+@pytest.mark.parametrize("change, says", [
+    (dict(pose=np.diag([2.0, 2.0, 2.0, 1.0])), "rotation"),
+    (dict(pose=np.diag([1.0, 1.0, -1.0, 1.0])), "rotation"),
+    (dict(pose=np.zeros((4, 4))), "rotation"),
+    (dict(width=10**6), "8192"),
+    (dict(fx=float("nan")), "focal"),
+])
+def test_bad_cameras(change, says):
+    told = dict(dict(width=8, height=8, fx=8.0, fy=8.0, cx=4.0, cy=4.0, pose=np.eye(4)), **change)
+    with pytest.raises(sw.Error, match=says):
+        sw.render.camera(**told)
+
+
+def test_limits_of_samples():
+    mesh = sw.mesh([[-1, -1, 1], [1, -1, 1], [0, 1, 1]], [[0, 1, 2]])
+    camera = sw.render.camera(8, 8, 8.0, 8.0, 4.0, 4.0, np.eye(4))
+    with pytest.raises(sw.Error, match="samples_per_side"):
+        sw.render.render(mesh, camera, samples_per_side=1000)
+    with pytest.raises(sw.Error, match="occlusion_rays"):
+        sw.render.render(mesh, camera, occlusion_rays=10**6)
+    with pytest.raises(sw.Error, match="samples_per_side"):
+        sw.render.DifferentiableRenderer(mesh, samples_per_side=1024)
+    with pytest.raises(sw.Error, match="finite"):
+        sw.render.orbit_camera((0, 0, 0), 1.0, 0.2, float("inf"), 1.0, 8, 8)
+
+
+def test_a_renderer_is_for_one_thread_at_a_time():
+    mesh = sw.mesh([[-1, -1, 1], [1, -1, 1], [0, 1, 1]], [[0, 1, 2]])
+    renderer = sw.render.DifferentiableRenderer(mesh)
+    camera = sw.render.camera(256, 256, 256.0, 256.0, 128.0, 128.0, np.eye(4))
+    refused, rendered = [], []
+
+    def work():
+        for _ in range(50):
+            try:
+                renderer.set_vertices(mesh.vertices)
+                rendered.append(renderer.render(camera)["mask"].sum())
+                renderer.backward(mask=np.ones((256, 256, 1), np.float32))
+            except sw.Error as error:
+                refused.append(str(error))
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert rendered and len(set(np.round(rendered, 3))) == 1
+    assert all("another thread" in text or "before" in text for text in refused), set(refused)
