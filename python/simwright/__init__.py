@@ -8,8 +8,10 @@ wrong raises ``simwright.Error``, a sentence with what, where and what to do.
 
 import os as _os
 import sys as _sys
+from importlib import import_module as _import_module
 from importlib.machinery import EXTENSION_SUFFIXES as _SUFFIXES
 from pathlib import Path as _Path
+from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 _FOLDER = _Path(__file__).absolute().parent
 # The program looks for its weights in this folder; the variable wins, as for the command.
@@ -32,14 +34,27 @@ except ImportError as error:
         ) from error
     raise
 
-from ._core import Error, Finding, Mesh, TexturedMesh, set_threads, threads  # noqa: E402
+from ._core import Error, Finding, Mesh, TexturedMesh, threads  # noqa: E402
 
 Error.__module__ = __name__
 __version__ = _core.__version__
 
 from . import assets, cameras, geometry, physics, render, rewards, scenes, skills, tasks  # noqa: E402
-from ._arguments import mesh  # noqa: E402
+from ._arguments import integer as _integer, mesh  # noqa: E402
 from ._progress import set_progress  # noqa: E402
+
+
+def set_threads(count: int) -> None:
+    """Sets the number of threads for long work.
+
+    Args:
+        count (int): of threads; 0: all that this process may use.
+
+    Raises:
+        Error: for another type, or a negative number.
+    """
+    _core.set_threads(_integer("count", count, 0))
+
 
 try:
     import gymnasium as _gymnasium
@@ -49,6 +64,18 @@ if _gymnasium is not None:
     from .envs import register_envs as _register_envs
 
     _register_envs()
+
+if _TYPE_CHECKING:
+    from . import autograd as autograd
+    from . import demonstrations as demonstrations
+    from . import envs as envs
+    from . import sb3 as sb3
+else:
+    def __getattr__(name: str) -> object:
+        """Imports a module that needs torch, Gymnasium or Stable-Baselines3 at its first use."""
+        if name not in ("autograd", "demonstrations", "envs", "sb3"):
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        return _import_module(f"{__name__}.{name}")
 
 __all__ = [
     "Error", "Finding", "Mesh", "TexturedMesh", "assets", "cameras", "geometry", "mesh", "physics", "render",

@@ -8,6 +8,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Iterator
 
+from . import _arguments as checked
 from . import _core
 
 if TYPE_CHECKING:
@@ -44,25 +45,24 @@ def cell_tasks(cell: str, split: Split = "train", instances: int | None = None,
                report: Reporter | None = None) -> Path:
     """Returns the tasks.json of a cell, made at the first call (seconds to a minute)."""
     known = {entry["name"]: entry for entry in _core.cells()}
-    if cell not in known:
-        raise _core.Error(f"cell: there is no '{cell}' (it is one of {', '.join(known)})")
-    if split not in SPLIT_SEEDS:
-        raise _core.Error(f"split: is '{split}' (give train or unseen)")
+    if not isinstance(cell, str) or cell not in known:
+        raise _core.Error(f"cell: there is no {checked.shown(cell)} (it is one of {', '.join(known)})")
+    if not isinstance(split, str) or split not in SPLIT_SEEDS:
+        raise _core.Error(f"split: is {checked.shown(split)} (give train or unseen)")
     if instances is None:
         instances = known[cell]["instances"] if split == "train" else 8
-    if int(instances) < 1:
-        raise _core.Error(f"instances: is {instances} (give at least 1)")
-    folder = cache_folder() / "cells" / f"{cell}_{split}_{int(instances)}"
+    instances = checked.integer("instances", instances, 1)
+    folder = cache_folder() / "cells" / f"{cell}_{split}_{instances}"
     with _locked(folder):
-        return _core.make_cell_tasks(cell, SPLIT_SEEDS[split], int(instances), str(example_photo()),
+        return _core.make_cell_tasks(cell, SPLIT_SEEDS[split], instances, str(example_photo()),
                                      str(folder), report)
 
 
 def long_task(name: str, report: Reporter | None = None) -> Path:
     """Returns the tasks.json of a shipped task of several subtasks."""
     known = [entry["name"] for entry in _core.long_tasks()]
-    if name not in known:
-        raise _core.Error(f"task: there is no '{name}' (it is one of {', '.join(known)})")
+    if not isinstance(name, str) or name not in known:
+        raise _core.Error(f"task: there is no {checked.shown(name)} (it is one of {', '.join(known)})")
     folder = cache_folder() / "long_tasks" / name
     with _locked(folder):
         return _core.make_long_task(name, str(folder), report)

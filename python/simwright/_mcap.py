@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 import numpy as np
 
+from . import _arguments as checked
 from ._output import Totals, need, placed
 from ._robomimic import xyzw
 
@@ -94,6 +95,7 @@ def write_mcap(path: _types.Path, episodes: Iterable[Episode],
         Error: where mcap-ros2-support is missing, or there is no episode.
     """
     ros2 = need("mcap_ros2.writer", "mcap")
+    path = checked.path("path", path)
     totals = Totals(path)
     one_file = Path(path).suffix == ".mcap"
     with placed(path, one_file) as partial:

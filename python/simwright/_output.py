@@ -9,6 +9,7 @@ import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator
 
+from . import _arguments as checked
 from . import _core
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ def placed(path: _types.Path, replaces: bool) -> Iterator[Path]:
     Raises:
         Error: where `path` exists and is not replaced, or cannot be written.
     """
-    path = Path(path)
+    path = Path(checked.path("path", path))
     if path.is_dir() or (path.exists() and not replaces):
         raise _core.Error(f"{path}: exists (remove it, or give another path)")
     partial = path.with_name(f".{path.name}.{os.getpid()}.partial")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Mapping, Sequence, cast
 
 import numpy as np
 from gymnasium import spaces
 
+from . import _arguments as checked
 from . import _core
 from . import cameras as _cameras
 from ._cells import cell_tasks
@@ -29,14 +30,15 @@ _ACTION_SPACES = ("focus", "guided", "delta", "osc_delta", "absolute", "joints",
 
 def settings_of(action_space: ActionSpace, robot: str, episode_seconds: float | None,
                 finger_friction: Range | None) -> _core.TaskSettings:
-    if action_space not in _ACTION_SPACES:
-        raise _core.Error(f"action_space: is '{action_space}' "
+    if not isinstance(action_space, str) or action_space not in _ACTION_SPACES:
+        raise _core.Error(f"action_space: is {checked.shown(action_space)} "
                           f"(give one of {', '.join(_ACTION_SPACES)})")
     settings = _core.TaskSettings()
-    settings.robot = robot
+    settings.robot = checked.text("robot", robot)
     settings.action_space = "delta" if action_space == "osc_delta" else action_space
-    settings.episode_seconds = episode_seconds
-    settings.finger_friction = finger_friction
+    if episode_seconds is not None:
+        settings.episode_seconds = checked.number("episode_seconds", episode_seconds)
+    settings.finger_friction = checked.optional_range("finger_friction", finger_friction)
     if action_space == "osc_delta":
         for name, value in _OSC_SETTINGS.items():
             setattr(settings, name, value)
@@ -49,7 +51,7 @@ def task_file(cell: str | None, tasks: Path | None, robot: str | None, split: Sp
     if (cell is None) == (tasks is None):
         raise _core.Error("environment: needs a cell, or a tasks.json (give one of cell=, tasks=)")
     if cell is None:
-        return str(tasks), robot or "panda"
+        return checked.path("tasks", cast("Path", tasks)), robot or "panda"
     file = cell_tasks(cell, split, instances, reporter(progress))
     known = next(entry for entry in _core.cells() if entry["name"] == cell)
     return str(file), robot or known["robot"]
@@ -61,8 +63,9 @@ def numbers(actions: ArrayLike, shape: tuple[int, ...] | None) -> Float32Array:
         array = np.asarray(actions)
         if array.dtype.kind not in "fiub":
             raise TypeError(f"has the type {array.dtype}")
-        array = np.ascontiguousarray(array, dtype=np.float32)
-    except (TypeError, ValueError) as error:
+        with np.errstate(over="ignore"):  # to infinity, which ends the episode
+            array = np.ascontiguousarray(array, dtype=np.float32)
+    except (TypeError, ValueError, RuntimeError) as error:
         raise _core.Error(f"action: is not an array of real numbers ({error})") from None
     if array.shape != shape:
         raise _core.Error(f"action: has the shape {array.shape} (give {shape})")
@@ -88,6 +91,8 @@ class Worlds:
     subtask_index: int | None
     render_mode: str | None
     _open = True
+    _begun = False
+    _running = False  # of environments of one episode
     _eyes: _core.EpisodeCameras | None = None
     _seed: int | None = None
     _index = 0
@@ -97,9 +102,8 @@ class Worlds:
                  subtask: int | None, episode_seconds: float | None,
                  finger_friction: Range | None) -> None:
         """Reads the tasks of a file; `subtask` is None where all are executed."""
-        patterns = [patterns] if isinstance(patterns, str) else list(patterns)
         settings = settings_of(action_space, robot, episode_seconds, finger_friction)
-        self.task = _core.PreparedTask(file, patterns, settings)
+        self.task = _core.PreparedTask(file, checked.texts("task", patterns), settings)
         self.tasks_file, self.robot, self.action_space_name = file, robot, action_space
         self.subtask_index = subtask
         self._flip_gripper = action_space == "osc_delta"
@@ -108,10 +112,16 @@ class Worlds:
         if not self._open:
             raise _core.Error("the environment: is closed (make a new one)")
 
+    def _require_running(self) -> None:
+        self._require_open()
+        if not self._running:
+            state = "has ended" if self._begun else "has not begun"
+            raise _core.Error(f"the episode: {state} (call reset())")
+
     def _number_episode(self, seed: int | None, random: np.random.Generator) -> tuple[int, int]:
         """Returns the next episode's seed and index: 0 of a new seed, else one more."""
         if seed is not None or self._seed is None:
-            self._seed = int(random.integers(2**62)) if seed is None else int(seed)
+            self._seed = int(random.integers(2**62)) if seed is None else seed
             self._index = 0
         else:
             self._index += 1
@@ -130,32 +140,47 @@ class Worlds:
         if render_mode not in (None, "rgb_array"):
             raise _core.Error(f"render_mode: is {render_mode!r} (give None or 'rgb_array')")
         self.render_mode = render_mode
-        self._kinds: list[str] = [images] if isinstance(images, str) else list(images)
+        self._kinds: list[str] = list(dict.fromkeys(checked.texts("images", images)))
         specs = _cameras.chosen(cameras, image_size)
         self._seen = [spec.name for spec in specs]
         if "render" in self._seen or "state" in self._seen:
             raise _core.Error("cameras: 'render' and 'state' are taken (choose another name)")
+        for kind in self._kinds:
+            if kind not in _cameras.KINDS:
+                raise _core.Error(f"images: there is no '{kind}' "
+                                  f"(give {', '.join(_cameras.KINDS)})")
+        if specs and not self._kinds:
+            raise _core.Error(f"images: is empty (give some of {', '.join(_cameras.KINDS)})")
         self._specs = list(specs)
         if render_mode is not None:
-            width, height = render_size
+            width, height = checked.pixels("render_size", render_size)
             self._specs.append(_cameras.camera("render", position=_RENDER_POSITION,
                                                target=_RENDER_TARGET, mount="robot", width=width,
                                                height=height))
         self._look = _cameras.look(look)
+        return self._image_spaces(specs)
+
+    def _image_spaces(self, specs: Sequence[_core.CameraSpec]) -> dict[str, spaces.Box]:
+        """Returns the spaces of the images by key; raises Error where two have one key."""
         shapes: dict[str, tuple[int, ...]] = {"rgb": (3,), "normal": (3,)}
         limits: dict[str, tuple[float, float, Any]] = {
             "rgb": (0, 255, np.uint8), "depth": (0.0, np.inf, np.float32),
             "segmentation": (-1, np.iinfo(np.int32).max, np.int32),
             "normal": (-1.0, 1.0, np.float32)}
-        found = {}
+        found: dict[str, spaces.Box] = {}
+        owners: dict[str, str] = {}
         for spec in specs:
             for kind in self._kinds:
-                if kind not in limits:
-                    raise _core.Error(f"images: there is no '{kind}' "
-                                      f"(give {', '.join(_cameras.KINDS)})")
+                key = self._key(spec.name, kind)
+                if key in owners:
+                    cameras = (f"two cameras are called '{spec.name}'" if owners[key] == spec.name
+                               else f"an image of '{owners[key]}' and one of '{spec.name}' have "
+                               f"the key '{key}'")
+                    raise _core.Error(f"cameras: {cameras} (give each another name)")
+                owners[key] = spec.name
                 low, high, dtype = limits[kind]
                 shape = (spec.height, spec.width) + shapes.get(kind, ())
-                found[self._key(spec.name, kind)] = spaces.Box(low, high, shape, dtype)
+                found[key] = spaces.Box(low, high, shape, dtype)
         return found
 
     @staticmethod

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from os import PathLike, fspath
 from typing import TYPE_CHECKING, cast
 
+from . import _arguments as checked
 from . import _core
 from ._core import ArticulatedAsset, Asset, Link
 from ._progress import reporter
@@ -29,7 +29,7 @@ def read(folder: Path) -> Asset | ArticulatedAsset:
     Raises:
         Error: if asset.json is missing, malformed, or names a missing mesh.
     """
-    return cast("Asset | ArticulatedAsset", _core.read_asset(fspath(folder)))
+    return cast("Asset | ArticulatedAsset", _core.read_asset(checked.path("folder", folder)))
 
 
 def import_assets(inputs: Paths, output: Path, category: str = "", up: UpAxis = "",
@@ -56,11 +56,11 @@ def import_assets(inputs: Paths, output: Path, category: str = "", up: UpAxis = 
     Raises:
         Error: for an input that does not exist or holds nothing to import, or an existing output.
     """
-    if isinstance(inputs, (str, bytes, PathLike)):
-        inputs = [inputs]
-    return _core.import_assets([fspath(path) for path in inputs], fspath(output), category, up,
-                               float(unit), float(height), int(seed), bool(check), bool(force),
-                               reporter(progress))
+    return _core.import_assets(
+        checked.paths("inputs", inputs), checked.path("output", output),
+        checked.text("category", category), checked.text("up", up),
+        checked.number("unit", unit, 0.0), checked.number("height", height, 0.0),
+        checked.seeded(seed), bool(check), bool(force), reporter(progress))
 
 
 def lift(photo: Path, category: str, output: Path, mask: Path | None = None,
@@ -87,8 +87,10 @@ def lift(photo: Path, category: str, output: Path, mask: Path | None = None,
         Error: if the photo cannot be read, no object stands out, or the output exists.
     """
     return cast("LiftOutcome", _core.lift(
-        fspath(photo), category, fspath(output), None if mask is None else fspath(mask), shape,
-        bool(fast), float(height), int(seed), bool(force), reporter(progress)))
+        checked.path("photo", photo), checked.text("category", category),
+        checked.path("output", output), None if mask is None else checked.path("mask", mask),
+        checked.text("shape", shape), bool(fast), checked.number("height", height, 0.0),
+        checked.seeded(seed), bool(force), reporter(progress)))
 
 
 def library_kinds() -> dict[str, str]:
@@ -116,8 +118,9 @@ def library(kind: str, output: Path, count: int = 1, seed: int = 1, check: bool 
     Raises:
         Error: for an unknown kind, a count below 1, or an existing output.
     """
-    return _core.make_library(kind, int(count), int(seed), fspath(output), bool(check), bool(force),
-                              reporter(progress))
+    return _core.make_library(checked.text("kind", kind), checked.integer("count", count, 1),
+                              checked.seeded(seed), checked.path("output", output), bool(check),
+                              bool(force), reporter(progress))
 
 
 def check(path: Path, progress: ProgressArgument = None) -> Report:
@@ -133,4 +136,4 @@ def check(path: Path, progress: ProgressArgument = None) -> Report:
     Raises:
         Error: if the path does not exist or cannot be read at all.
     """
-    return cast("Report", _core.check(fspath(path), reporter(progress)))
+    return cast("Report", _core.check(checked.path("path", path), reporter(progress)))

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 import torch
 
+from . import _arguments as checked
 from . import _core
+from .render import DifferentiableRenderer
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from .render import DifferentiableRenderer
 
 __all__ = ["render"]
 
@@ -80,10 +80,15 @@ def render(renderer: DifferentiableRenderer, camera: _core.Camera, vertices: tor
         (color, mask, depth): (H, W, 3), (H, W, 1), (H, W, 1) float32 tensors.
 
     Raises:
-        Error: for tensors of another shape.
+        Error: for tensors of another shape, or arrays that are not tensors.
     """
+    for name, value in (("vertices", vertices), ("colors", colors), ("light", light)):
+        if value is not None or name == "vertices":
+            checked.instance(name, value, torch.Tensor, "give a torch.Tensor")
+    checked.instance("renderer", renderer, DifferentiableRenderer,
+                     "give a render.DifferentiableRenderer")
     if tuple(vertices.shape) != (len(renderer.welded), 3):
         raise _core.Error(f"vertices: have the shape {tuple(vertices.shape)} "
                           f"(give {(len(renderer.welded), 3)})")
     return cast("tuple[torch.Tensor, torch.Tensor, torch.Tensor]",
-                _Render.apply(renderer, camera, int(seed), vertices, colors, light))
+                _Render.apply(renderer, camera, checked.seeded(seed), vertices, colors, light))

@@ -6,10 +6,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from . import _arguments as checked
 from . import _core
 from ._arguments import array
 from ._core import CameraSpec, LookRanges
@@ -17,11 +18,12 @@ from ._core import CameraSpec, LookRanges
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from ._types import Cameras, ImageSize, Look
+    from ._types import Cameras, FloatArray, ImageSize, Look
 
 __all__ = ["CameraSpec", "LookRanges", "camera", "defaults", "look"]
 
 KINDS = ("rgb", "depth", "segmentation", "normal")
+_RANGES = frozenset(name for name in vars(LookRanges) if not name.startswith("_")) - {"wide"}
 
 
 def defaults(width: int = 128, height: int = 128) -> dict[str, CameraSpec]:
@@ -30,8 +32,13 @@ def defaults(width: int = 128, height: int = 128) -> dict[str, CameraSpec]:
 
     Args:
         width, height (int): pixels.
+
+    Raises:
+        Error: for sides that are not ints from 1 to 8192.
     """
-    return {spec.name: spec for spec in _core.default_cameras(int(width), int(height))}
+    width = checked.integer("width", width, 1, checked.MOST_PIXELS)
+    height = checked.integer("height", height, 1, checked.MOST_PIXELS)
+    return {spec.name: spec for spec in _core.default_cameras(width, height)}
 
 
 def camera(name: str, pose: ArrayLike | None = None, position: ArrayLike | None = None,
@@ -56,16 +63,33 @@ def camera(name: str, pose: ArrayLike | None = None, position: ArrayLike | None 
     Raises:
         Error: for a pose that is not rigid, or sizes or angles out of range; names the camera.
     """
+    name = checked.text("camera", name)
     if (pose is None) == (position is None or target is None):
         raise _core.Error(f"camera '{name}': needs a pose, or a position and a target")
     if pose is None:
-        given = {"position": position, "target": target, "up": up}
-        pose = _core.look_at(*(array(what, cast("ArrayLike", value), (3,), np.float64)
-                               for what, value in given.items()))
+        pose = _looking(name, {"position": position, "target": target, "up": up})
     if intrinsics is not None:
         intrinsics = [float(number) for number in array("intrinsics", intrinsics, (4,), np.float64)]
-    return CameraSpec(str(name), str(mount), array("pose", pose, (4, 4), np.float64), int(width),
-                      int(height), float(vertical_fov), intrinsics)
+    own = f"camera '{name}': "  # an error names the camera
+    return CameraSpec(name, checked.text(own + "mount", mount),
+                      array(own + "pose", pose, (4, 4), np.float64),
+                      checked.integer(own + "width", width, 1, checked.MOST_PIXELS),
+                      checked.integer(own + "height", height, 1, checked.MOST_PIXELS),
+                      checked.number(own + "vertical_fov", vertical_fov), intrinsics)
+
+
+def _looking(name: str, given: dict[str, ArrayLike | None]) -> FloatArray:
+    """Returns the pose (4, 4) of a camera at ``position`` that looks at ``target``."""
+    vectors = {what: array(f"camera '{name}': {what}", cast("ArrayLike", value), (3,), np.float64)
+               for what, value in given.items()}
+    try:
+        return _core.look_at(vectors["position"], vectors["target"], vectors["up"])
+    except _core.Error:
+        if np.linalg.norm(vectors["target"] - vectors["position"]) < 1e-9:
+            raise _core.Error(f"camera '{name}': its target is its own position "
+                              "(give another target)") from None
+        raise _core.Error(f"camera '{name}': it looks along its up direction "
+                          "(give another up, such as (1, 0, 0))") from None
 
 
 def look(value: Look = None) -> LookRanges:
@@ -78,33 +102,34 @@ def look(value: Look = None) -> LookRanges:
         return LookRanges()
     if isinstance(value, LookRanges):
         return value
-    if value == "wide":
+    if isinstance(value, str) and value == "wide":
         return LookRanges.wide()
     if not isinstance(value, dict):
-        raise _core.Error(f"look: is {value!r} (give None, 'wide', a dict or LookRanges)")
+        raise _core.Error(f"look: is {checked.shown(value)} (give None, 'wide', a dict or LookRanges)")
     ranges = LookRanges()
     for name, number in value.items():
-        if not hasattr(ranges, name):
+        if not isinstance(name, str) or name not in _RANGES:
             raise _core.Error(f"look: there is no '{name}' (docs/cameras.md lists the ranges)")
         try:
             setattr(ranges, name, number)
-        except TypeError:
-            raise _core.Error(f"look: {name} is {number!r} (give a number, or two)") from None
+        except (TypeError, ValueError):
+            raise _core.Error(f"look: {name} is {checked.shown(number)} (give a number, or two)") from None
     return ranges
 
 
 def chosen(cameras: Cameras, size: ImageSize) -> list[CameraSpec]:
     """Returns the specs of names and specs; named ones get `size` pixels a side."""
-    sides: Any = (size, size) if np.isscalar(size) else size
-    width, height = sides
+    width, height = checked.pixels("image_size", size, square=True)
     known = defaults(width, height)
     specs = []
-    for one in [cameras] if isinstance(cameras, (str, CameraSpec)) else list(cameras):
+    if isinstance(cameras, (str, CameraSpec)):
+        cameras = [cameras]
+    for one in checked.listed("cameras", cameras, "names, or camera(...)"):
         if isinstance(one, CameraSpec):
             specs.append(one)
-        elif one in known:
+        elif isinstance(one, str) and one in known:
             specs.append(known[one])
         else:
-            raise _core.Error(f"cameras: there is no '{one}' (give {', '.join(known)}, or a "
+            raise _core.Error(f"cameras: there is no {checked.shown(one)} (give {', '.join(known)}, or a "
                               "camera(...))")
     return specs

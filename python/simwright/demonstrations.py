@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any, Callable, Iterator, Sequence
 
 import numpy as np
 
+from . import _arguments as checked
 from . import _core, skills
 from ._runs import RunPolicies, environment_settings
 from ._lerobot import write_lerobot
@@ -74,7 +75,8 @@ class Episode:
             to the object.
         rewards (T) float32, dones (T) bool: 1 at the end; goals (T) bool: the goal holds.
         images (dict): by camera, (T + 1, H, W, 3) uint8 RGB; NAME_depth (T + 1, H, W) float32, m,
-            and NAME_segmentation (T + 1, H, W) int32, where they were asked for.
+            NAME_segmentation (T + 1, H, W) int32, and NAME_normal (T + 1, H, W, 3) float32, world,
+            where they were asked for.
         camera_poses (dict): by camera, (T + 1, 4, 4), world from camera, +z forward, y down, m.
         intrinsics (dict): by camera, fx, fy, cx, cy in pixels.
         legend (dict): names of the labels of segmentations.
@@ -186,19 +188,18 @@ def record(skill: str | None = None, count: int = 50,
     """
     if keep not in ("successes", "all"):
         raise _core.Error(f"keep: is {keep!r} (give 'successes' or 'all')")
-    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
-        raise _core.Error(f"count: is {count!r} (give an int of at least 1)")
+    count, seed = checked.integer("count", count, 1), checked.seeded(seed)
     if run is not None:
         if skill is not None:
             raise _core.Error("run: is given beside a skill (give one of them)")
-        told = _core.read_run(str(run))
+        told = _core.read_run(checked.path("run", run))
         settings = {**environment_settings(told), **settings}
         acting = RunPolicies(told) if policy is None else _policy(skill, policy)
     else:
         acting = _policy(skill, "expert" if policy is None else policy)
     env = _environment(skill, acting, settings, cameras=cameras, image_size=image_size,
                        images=images, look=look, progress=progress)
-    return _record(env, skill, int(count), acting, int(seed), keep, reporter(progress))
+    return _record(env, skill, count, acting, seed, keep, reporter(progress))
 
 
 def _policy(skill: str | None, policy: Any) -> Any:
@@ -304,6 +305,25 @@ class _Frames:
         return np.asarray(self.rows[name], dtype=dtype)
 
 
+def _acted(acting: Any, env: SkillEnv | LongTaskEnv, state: Float32Array) -> NDArray[Any]:
+    """Returns the action (A) of a policy's act, or of a function of the environment."""
+    batched = hasattr(acting, "act")
+    answer = acting.act(state[None]) if batched else acting(env)
+    what, shape = "the policy's act" if batched else "the function", env.action_space.shape
+    assert shape is not None
+    wanted = (1, *shape) if batched else shape
+    if answer is None:
+        raise _core.Error(f"policy: {what} returned None (return an array {wanted})")
+    try:
+        action = np.asarray(answer)
+    except (TypeError, ValueError, RuntimeError) as error:
+        raise _core.Error(f"policy: {what} returned no array: {error} "
+                          f"(return an array {wanted})") from None
+    if action.shape != wanted:
+        raise _core.Error(f"policy: {what} returned an array {action.shape} (return {wanted})")
+    return action[0] if batched else action
+
+
 def _run(env: SkillEnv | LongTaskEnv, skill: str | None, acting: Any, seed: int, index: int,
          describe: _Descriptions) -> Episode:
     """Runs an episode to its end."""
@@ -318,10 +338,8 @@ def _run(env: SkillEnv | LongTaskEnv, skill: str | None, acting: Any, seed: int,
             action = env.expert_action()
             if action is None:
                 raise _core.Error(f"policy: {skill} has no expert (give another policy)")
-        elif hasattr(acting, "act"):
-            action = np.asarray(acting.act(frames.rows["states"][-1][None]))[0]
         else:
-            action = np.asarray(acting(env))
+            action = _acted(acting, env, frames.rows["states"][-1])
         observation, reward, terminated, truncated, info = env.step(action)
         ended = terminated or truncated
         # The next subtask of a long task starts with the commands of the one before.

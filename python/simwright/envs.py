@@ -20,6 +20,7 @@ from gymnasium import spaces
 from gymnasium.vector import AutoresetMode
 from gymnasium.vector.utils import batch_space
 
+from . import _arguments as checked
 from . import _core
 from ._cells import long_task
 from ._progress import reporter
@@ -41,7 +42,7 @@ class SkillEnv(Worlds, gymnasium.Env):
     Args:
         cell (str): a cell of the skill suite, such as "open_drawer".
         tasks (path): instead of a cell, a tasks.json.
-        task (str or list of str): a name, or patterns, in it.
+        task (str or list of str): a name, or patterns, in the tasks.json or in the cell's tasks.
         subtask (int): index of the subtask in these tasks.
         split (str): of a cell, "train" or "unseen" objects.
         instances (int): of a cell, how many objects; None: those of the shipped policy's split.
@@ -78,27 +79,27 @@ class SkillEnv(Worlds, gymnasium.Env):
                  render_mode: RenderMode | None = None, render_size: tuple[int, int] = (480, 360),
                  progress: ProgressArgument = None,
                  finger_friction: Range | None = None) -> None:
-        file, robot = task_file(cell, tasks, robot, split, instances, progress)
-        self._prepare(file, robot, "*" if tasks is None else task, action_space, int(subtask),
-                      episode_seconds, finger_friction)
+        subtask = checked.integer("subtask", subtask, 0)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
-        self._episode = _core.SingleEpisode(self.task, int(subtask), not easy_starts)
-        self._eyes = self._make_cameras(int(subtask), not easy_starts)
+        file, robot = task_file(cell, tasks, robot, split, instances, progress)
+        self._prepare(file, robot, task, action_space, subtask, episode_seconds, finger_friction)
+        self._episode = _core.SingleEpisode(self.task, subtask, not easy_starts)
+        self._eyes = self._make_cameras(subtask, not easy_starts)
         if self._eyes is not None:
             self._episode.attach_cameras(self._eyes)
         self.observation_space = self._space(
             spaces.Box(-np.inf, np.inf, (self.task.observation_size(subtask),), np.float32),
             pictures)
         self.action_space = spaces.Box(-1.0, 1.0, (self.task.action_size(subtask),), np.float32)
-        self._running = False
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None,
               ) -> tuple[Observation, Info]:
         """Starts the next episode of the seed; a new seed starts with its first one."""
         self._require_open()
+        seed = None if seed is None else checked.seeded(seed)
         super().reset(seed=seed)
         observation = self._episode.begin(*self._number_episode(seed, self.np_random))
-        self._running = True
+        self._begun = self._running = True
         return self._observation(observation), {"success": False, "is_success": False}
 
     def _observation(self, state: Float32Array) -> Observation:
@@ -108,9 +109,7 @@ class SkillEnv(Worlds, gymnasium.Env):
 
     def step(self, action: ArrayLike) -> tuple[Observation, float, bool, bool, Info]:
         """Executes an action (A), clamped to [-1, 1]; one that is not finite ends the episode."""
-        self._require_open()
-        if not self._running:
-            raise _core.Error("the episode: has ended (call reset())")
+        self._require_running()
         action = self._sent(numbers(action, self.action_space.shape))
         observation, reward, held, truncated, success, invalid, failed = self._episode.step(action)
         info = {"success": success, "is_success": held}
@@ -138,8 +137,9 @@ class SkillEnv(Worlds, gymnasium.Env):
         return cast("Float32Array | None", self._episode.expert_action())
 
     def state(self) -> EnvironmentState:
-        """Returns the state in SI units, world frame: robot_joints (rad), gripper_pose (4, 4),
-        gripper_opening (m), grasped, objects (pose (4, 4), joints), seconds."""
+        """Returns the state in SI units, world frame: robot_joints (rad), robot_command (the
+        arm's set points, rad or m), gripper_pose (4, 4), gripper_opening (m), grasped, objects
+        (pose (4, 4), joints), target (the name of the object that the subtask is about), seconds."""
         self._require_open()
         return cast("EnvironmentState", self._episode.state())
 
@@ -166,14 +166,13 @@ class SkillVectorEnv(Worlds, gymnasium.vector.VectorEnv):
                  render_mode: RenderMode | None = None, render_size: tuple[int, int] = (480, 360),
                  progress: ProgressArgument = None,
                  finger_friction: Range | None = None) -> None:
-        self.num_envs = int(num_envs)
-        file, robot = task_file(cell, tasks, robot, split, instances, progress)
-        self._prepare(file, robot, "*" if tasks is None else task, action_space, int(subtask),
-                      episode_seconds, finger_friction)
+        self.num_envs = checked.integer("num_envs", num_envs, 1)
+        subtask = checked.integer("subtask", subtask, 0)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
-        self._episodes = _core.VectorEpisodes(self.task, int(subtask), self.num_envs,
-                                              not easy_starts)
-        self._eyes = self._make_cameras(int(subtask), not easy_starts)
+        file, robot = task_file(cell, tasks, robot, split, instances, progress)
+        self._prepare(file, robot, task, action_space, subtask, episode_seconds, finger_friction)
+        self._episodes = _core.VectorEpisodes(self.task, subtask, self.num_envs, not easy_starts)
+        self._eyes = self._make_cameras(subtask, not easy_starts)
         if self._eyes is not None:
             self._episodes.attach_cameras(self._eyes, self._seen, self._kinds)
         self.single_observation_space = self._space(
@@ -189,20 +188,22 @@ class SkillVectorEnv(Worlds, gymnasium.vector.VectorEnv):
         if options and "reset_mask" in options:
             raise _core.Error("reset_mask: is not used "
                               "(episodes restart in the step that ends them)")
-        if isinstance(seed, (list, tuple, np.ndarray)):
+        if isinstance(seed, (list, tuple)) or (isinstance(seed, np.ndarray) and seed.ndim == 1):
             if len(seed) != self.num_envs:
                 raise _core.Error(f"seed: has {len(seed)} entries "
                                   f"(give {self.num_envs}, or one int)")
-            numbered = [int(one) for one in seed if one is not None]
+            numbered = [checked.seeded(one) for one in seed if one is not None]
             if len(numbered) < len(seed):
                 seed = None
             else:
                 state = np.random.SeedSequence(numbered).generate_state(2)
                 seed = int(state[0]) << 30 | int(state[1]) >> 2
+        seed = None if seed is None else checked.seeded(seed)
         super().reset(seed=seed)
         if seed is None:
             seed = int(self.np_random.integers(2**62))
-        observations = self._episodes.reset(int(seed))
+        observations = self._episodes.reset(seed)
+        self._begun = True
         return self._observation(observations), self._info(np.zeros(self.num_envs, dtype=bool))
 
     def _observation(self, states: Float32Array) -> Observation:
@@ -217,6 +218,8 @@ class SkillVectorEnv(Worlds, gymnasium.vector.VectorEnv):
             Observation, NDArray[np.float32], NDArray[np.bool_], NDArray[np.bool_], Info]:
         """Executes actions (N, A), clamped to [-1, 1]."""
         self._require_open()
+        if not self._begun:
+            raise _core.Error("the episodes: have not begun (call reset())")
         actions = self._sent(numbers(actions, self.action_space.shape))
         (observations, rewards, terminated, truncated, success, last, invalid,
          failed) = self._episodes.step(actions)
@@ -276,13 +279,13 @@ class LongTaskEnv(Worlds, gymnasium.Env):
                  finger_friction: Range | None = None) -> None:
         if (name is None) == (tasks is None):
             raise _core.Error("environment: needs a long task, or a tasks.json (give name= or tasks=)")
+        pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
         if name is not None:
             tasks = long_task(name, reporter(progress))
             known = next(entry for entry in _core.long_tasks() if entry["name"] == name)
             robot = robot or known["robot"]
-        self._prepare(str(tasks), robot or "panda", task, action_space, None, episode_seconds,
-                      finger_friction)
-        pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
+        self._prepare(checked.path("tasks", cast("Path", tasks)), robot or "panda", task,
+                      action_space, None, episode_seconds, finger_friction)
         count = len(self.task.subtasks)
         self._episodes = [_core.SingleEpisode(self.task, index, True) for index in range(count)]
         for index, episode in enumerate(self._episodes):
@@ -294,7 +297,6 @@ class LongTaskEnv(Worlds, gymnasium.Env):
             spaces.Box(-np.inf, np.inf, (count + self._longest,), np.float32), pictures)
         self.action_space = spaces.Box(-1.0, 1.0, (self.task.action_size(0),), np.float32)
         self._subtask = 0
-        self._running = False
 
     def _observation(self, part: Float32Array) -> Observation:
         count = len(self._episodes)
@@ -322,18 +324,17 @@ class LongTaskEnv(Worlds, gymnasium.Env):
               ) -> tuple[Observation, Info]:
         """Starts the next episode of the seed; a new seed starts with its first one."""
         self._require_open()
+        seed = None if seed is None else checked.seeded(seed)
         super().reset(seed=seed)
         numbered = self._number_episode(seed, self.np_random)
         self._subtask = 0
-        self._running = True
+        self._begun = self._running = True
         part = self._episodes[0].begin(*numbered)
         return self._observation(part), {"success": False, "is_success": False, "subtask": 0}
 
     def step(self, action: ArrayLike) -> tuple[Observation, float, bool, bool, Info]:
         """Executes an action (A) in the current subtask."""
-        self._require_open()
-        if not self._running:
-            raise _core.Error("the episode: has ended (call reset())")
+        self._require_running()
         action = self._sent(numbers(action, self.action_space.shape))
         episode = self._episodes[self._subtask]
         part, reward, held, truncated, success, invalid, failed = episode.step(action)

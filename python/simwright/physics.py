@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+from . import _arguments as checked
 from . import _core
 
 if TYPE_CHECKING:
@@ -32,4 +33,5 @@ def sample(category: str, seed: int = 1) -> PhysicalParameters:
     Raises:
         Error: if no category is near, naming the nearest ones.
     """
-    return cast("PhysicalParameters", _core.sample_parameters(str(category), int(seed)))
+    return cast("PhysicalParameters", _core.sample_parameters(
+        checked.text("category", category), checked.seeded(seed)))

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Iterable, cast
 
 import numpy as np
 
+from . import _arguments as checked
 from . import _core
 from ._arguments import array
 from ._core import Camera, TexturedMesh
@@ -34,8 +35,10 @@ def camera(width: int, height: int, fx: float, fy: float, cx: float, cy: float,
     Raises:
         Error: without pixels or focal length, or for a pose that is not finite.
     """
-    return _core.Camera(int(width), int(height), float(fx), float(fy), float(cx), float(cy),
-                        array("pose", pose, (4, 4), np.float64))
+    return _core.Camera(
+        checked.integer("width", width, 1), checked.integer("height", height, 1),
+        checked.number("focal length fx", fx), checked.number("focal length fy", fy),
+        checked.number("cx", cx), checked.number("cy", cy), array("pose", pose, (4, 4), np.float64))
 
 
 def orbit_camera(target: ArrayLike, distance: float, elevation: float, azimuth: float,
@@ -55,9 +58,11 @@ def orbit_camera(target: ArrayLike, distance: float, elevation: float, azimuth: 
     Raises:
         Error: for an elevation of pi/2 and more, or sizes that are not positive.
     """
-    return _core.orbit_camera(array("target", target, (3,), np.float64), float(distance),
-                              float(elevation), float(azimuth), float(vertical_fov), int(width),
-                              int(height))
+    return _core.orbit_camera(
+        array("target", target, (3,), np.float64), checked.number("distance", distance),
+        checked.number("elevation", elevation), checked.number("azimuth", azimuth),
+        checked.number("vertical_fov", vertical_fov), checked.integer("width", width, 1),
+        checked.integer("height", height, 1))
 
 
 def render(meshes: TexturedMesh | _core.Mesh | Iterable[TexturedMesh | _core.Mesh],
@@ -80,9 +85,19 @@ def render(meshes: TexturedMesh | _core.Mesh | Iterable[TexturedMesh | _core.Mes
     """
     if isinstance(meshes, (_core.TexturedMesh, _core.Mesh)):
         meshes = [meshes]
-    textured = [TexturedMesh(mesh) if isinstance(mesh, _core.Mesh) else mesh for mesh in meshes]
-    return cast("Images", _core.render(textured, camera, int(samples_per_side),
-                                       int(occlusion_rays)))
+    remedy = "give a Mesh, a TexturedMesh of geometry.read_mesh, or a list of them"
+    textured = [TexturedMesh(mesh) if isinstance(mesh, _core.Mesh)
+                else checked.instance("meshes", mesh, TexturedMesh, remedy)
+                for mesh in checked.listed("meshes", meshes, remedy[len("give "):])]
+    return cast("Images", _core.render(
+        textured, _camera_of(camera), checked.integer("samples_per_side", samples_per_side, 1),
+        checked.integer("occlusion_rays", occlusion_rays, 0)))
+
+
+def _camera_of(value: _core.Camera) -> _core.Camera:
+    """Returns a camera; raises Error for anything else."""
+    return checked.instance("camera", value, _core.Camera,
+                            "give one of render.camera or render.orbit_camera")
 
 
 def studio_light(key: ArrayLike = (0.4, -0.5, 0.75)) -> FloatArray:
@@ -90,8 +105,14 @@ def studio_light(key: ArrayLike = (0.4, -0.5, 0.75)) -> FloatArray:
 
     Args:
         key (3): the direction towards the key light, unit, world.
+
+    Raises:
+        Error: for a key without a direction.
     """
-    return _core.light(array("key", key, (3,), np.float32))
+    direction = array("key", key, (3,), np.float32)
+    if not direction.any():
+        raise _core.Error("key: is 0, 0, 0, which is no direction (give a unit vector)")
+    return _core.light(direction)
 
 
 class DifferentiableRenderer:
@@ -101,7 +122,7 @@ class DifferentiableRenderer:
     time. ``simwright.autograd`` wraps it for torch.
 
     Args:
-        mesh (Mesh): N vertices.
+        mesh (Mesh or TexturedMesh): N vertices; textures are given apart.
         colors (N, 3): float64 per vertex, in the caller's colour space; None: white.
         texture (H, W, 3): float32, with ``corner_uvs`` (3 M, 2) float32; None: none.
         lit (bool): shades by the light; else the colour is the albedo.
@@ -113,7 +134,7 @@ class DifferentiableRenderer:
         Error: for an invalid mesh, or colours, texture and UVs that do not fit it.
     """
 
-    def __init__(self, mesh: _core.Mesh, colors: ArrayLike | None = None,
+    def __init__(self, mesh: _core.Mesh | TexturedMesh, colors: ArrayLike | None = None,
                  texture: ArrayLike | None = None, corner_uvs: ArrayLike | None = None,
                  lit: bool = False, smooth_normals: bool = True, render_normals: bool = False,
                  samples_per_side: int = 2, edge_samples: int = 4000) -> None:
@@ -121,11 +142,14 @@ class DifferentiableRenderer:
                   dtype: type[np.floating[Any]]) -> NDArray[Any] | None:
             return None if value is None else array(name, value, shape, dtype)
 
+        shape = checked.surface("mesh", mesh)
         self._renderer = _core.DifferentiableRenderer(
-            mesh, given("colors", colors, (len(mesh.vertices), 3), np.float64),
+            shape, given("colors", colors, (len(shape.vertices), 3), np.float64),
             given("texture", texture, (None, None, 3), np.float32),
-            given("corner_uvs", corner_uvs, (3 * len(mesh.triangles), 2), np.float32), bool(lit),
-            bool(smooth_normals), bool(render_normals), int(samples_per_side), int(edge_samples))
+            given("corner_uvs", corner_uvs, (3 * len(shape.triangles), 2), np.float32), bool(lit),
+            bool(smooth_normals), bool(render_normals),
+            checked.integer("samples_per_side", samples_per_side, 1),
+            checked.integer("edge_samples", edge_samples, 0))
 
     def set_vertices(self, vertices: ArrayLike) -> None:
         """Sets the vertices (N, 3), m, that the next image uses."""
@@ -150,7 +174,7 @@ class DifferentiableRenderer:
             dict: ``color`` (H, W, 3), ``mask`` (H, W, 1), ``depth`` (H, W, 1), m, and ``normal``
             (H, W, 3) if it was asked for; float32.
         """
-        return self._renderer.render(camera, int(seed))
+        return self._renderer.render(_camera_of(camera), checked.seeded(seed))
 
     def backward(self, color: ArrayLike | None = None, mask: ArrayLike | None = None,
                  depth: ArrayLike | None = None,

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from os import PathLike, fspath
 from typing import TYPE_CHECKING, Iterable, cast
 
+from . import _arguments as checked
 from . import _core
 from ._core import AssetSet, SceneObject
 from ._progress import reporter
@@ -36,7 +36,8 @@ def read(path: Path, first: int = 0, count: int = -1) -> list[list[SceneObject]]
     Raises:
         Error: if there is no shard, or one is damaged.
     """
-    return _core.read_scenes(fspath(path), int(first), int(count))
+    return _core.read_scenes(checked.path("path", path), checked.integer("first", first, 0),
+                             checked.integer("count", count, -1))
 
 
 def make_feasible(objects: Iterable[SceneObject], assets: AssetSet, min_objects: int = 3,
@@ -58,18 +59,23 @@ def make_feasible(objects: Iterable[SceneObject], assets: AssetSet, min_objects:
         Error: for a category without an asset.
     """
     return cast("FeasibleScene", _core.make_feasible(
-        list(objects), assets, int(min_objects), float(lowering), reporter(progress)))
+        _objects(objects), _asset_set(assets), checked.integer("min_objects", min_objects, 0),
+        checked.number("lowering", lowering, 0.0), reporter(progress)))
 
 
 def total_penetration(objects: Iterable[SceneObject], assets: AssetSet) -> float:
     """Returns the sum of the depths (m) of all interpenetrating pairs of a scene's objects."""
-    return _core.total_penetration(list(objects), assets)
+    return _core.total_penetration(_objects(objects), _asset_set(assets))
 
 
-def _paths(paths: Paths) -> list[str]:
-    if isinstance(paths, (str, bytes, PathLike)):
-        paths = [paths]
-    return [fspath(path) for path in paths]
+def _objects(objects: Iterable[SceneObject]) -> list[SceneObject]:
+    remedy = "give a list of SceneObject, one scene of scenes.read"
+    return [checked.instance("objects", one, SceneObject, remedy)
+            for one in checked.listed("objects", objects, remedy[len("give "):])]
+
+
+def _asset_set(assets: AssetSet) -> AssetSet:
+    return checked.instance("assets", assets, AssetSet, "give one of AssetSet.read(folder)")
 
 
 def generate(type: str, output: Path, count: int = 100, assets: Paths = (), seed: int = 1,
@@ -92,8 +98,9 @@ def generate(type: str, output: Path, count: int = 100, assets: Paths = (), seed
         Error: for an unknown type, or an output that contains other scenes.
     """
     return cast("Report", _core.generate_scenes(
-        type, int(count), fspath(output), _paths(assets), int(seed), bool(raw),
-        reporter(progress)))
+        checked.text("type", type), checked.integer("count", count, 1),
+        checked.path("output", output), checked.paths("assets", assets), checked.seeded(seed),
+        bool(raw), reporter(progress)))
 
 
 def sample(output: Path, weights: Path = "", type: str = "", count: int = 16, prompts: Names = (),
@@ -122,10 +129,12 @@ def sample(output: Path, weights: Path = "", type: str = "", count: int = 16, pr
     Raises:
         Error: for a file without weights, a prompt that cannot be read, or an existing output.
     """
-    prompts = [prompts] if isinstance(prompts, str) else list(prompts)
     return cast("Report", _core.sample_scenes(
-        fspath(output), fspath(weights), type, int(count), prompts, int(steps), float(guidance),
-        _paths(assets), int(seed), bool(raw), bool(force), reporter(progress)))
+        checked.path("output", output), checked.path("weights", weights, required=False),
+        checked.text("type", type), checked.integer("count", count, 1),
+        checked.texts("prompts", prompts), checked.integer("steps", steps, 0),
+        checked.number("guidance", guidance), checked.paths("assets", assets),
+        checked.seeded(seed), bool(raw), bool(force), reporter(progress)))
 
 
 def complete(source: Path, output: Path, count: int = -1, prompt: str = "", scenes: str = "",
@@ -148,11 +157,13 @@ def complete(source: Path, output: Path, count: int = -1, prompt: str = "", scen
         Error: for a source, a prompt or a model that does not fit.
     """
     return cast("Report", _core.steer_scenes(
-        fspath(source), fspath(output), False, scenes, int(count), prompt, [], fspath(weights),
-        type, int(seed), bool(force), reporter(progress)))
+        checked.path("source", source), checked.path("output", output), False,
+        checked.text("scenes", scenes), checked.integer("count", count, -1),
+        checked.text("prompt", prompt), [], checked.path("weights", weights, required=False),
+        checked.text("type", type), checked.seeded(seed), bool(force), reporter(progress)))
 
 
-def rearrange(source: Path, output: Path, keep: Iterable[str] = (), scenes: str = "",
+def rearrange(source: Path, output: Path, keep: Names = (), scenes: str = "",
               weights: Path = "", type: str = "", seed: int = 1, force: bool = False,
               progress: ProgressArgument = None) -> Report:
     """Finds new poses for the objects of scenes.
@@ -160,7 +171,7 @@ def rearrange(source: Path, output: Path, keep: Iterable[str] = (), scenes: str 
     Args:
         source (path): a dataset, a folder of ``export``, or a JSON file of poses.
         output (path): the dataset's folder.
-        keep (list of str): names of the objects that stay.
+        keep (str or list of str): names of the objects that stay.
         scenes, weights, type, seed, force, progress: as for ``complete``.
 
     Returns:
@@ -170,8 +181,10 @@ def rearrange(source: Path, output: Path, keep: Iterable[str] = (), scenes: str 
         Error: for a source or a model that does not fit.
     """
     return cast("Report", _core.steer_scenes(
-        fspath(source), fspath(output), True, scenes, -1, "", list(keep), fspath(weights), type,
-        int(seed), bool(force), reporter(progress)))
+        checked.path("source", source), checked.path("output", output), True,
+        checked.text("scenes", scenes), -1, "", checked.texts("keep", keep),
+        checked.path("weights", weights, required=False), checked.text("type", type),
+        checked.seeded(seed), bool(force), reporter(progress)))
 
 
 def evaluate(type: str = "", data: Path = "", weights: Path = "", samples: Path = "",
@@ -194,8 +207,10 @@ def evaluate(type: str = "", data: Path = "", weights: Path = "", samples: Path 
         Error: if there is nothing to evaluate, or a file is damaged.
     """
     return cast("Report", _core.evaluate_scenes(
-        type, fspath(data), fspath(weights), fspath(samples), int(count), int(seed),
-        reporter(progress)))
+        checked.text("type", type), checked.path("data", data, required=False),
+        checked.path("weights", weights, required=False),
+        checked.path("samples", samples, required=False), checked.integer("count", count, 1),
+        checked.seeded(seed), reporter(progress)))
 
 
 def export(dataset: Path, output: Path, scenes: str = "",
@@ -218,7 +233,7 @@ def export(dataset: Path, output: Path, scenes: str = "",
     Raises:
         Error: for an unknown format or scene, or an existing output.
     """
-    chosen = {formats} if isinstance(formats, str) else set(formats)
     return cast("Report", _core.export_worlds(
-        fspath(dataset), fspath(output), scenes, chosen, bool(check), bool(force),
-        reporter(progress)))
+        checked.path("dataset", dataset), checked.path("output", output),
+        checked.text("scenes", scenes), set(checked.texts("formats", formats)), bool(check),
+        bool(force), reporter(progress)))

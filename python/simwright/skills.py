@@ -6,9 +6,10 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+from . import _arguments as checked
 from . import _core
 from ._cells import cell_tasks
-from ._core import Policy, wilson_interval
+from ._core import Policy
 from ._progress import reporter
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ def load(name_or_path: _types.Path) -> Policy:
     Raises:
         Error: for an unknown name (listing the known ones), or a missing or damaged file.
     """
-    text = os.fspath(name_or_path)
+    text = checked.path("skill", name_or_path, required=False)
     if text in names():
         return _core.read_policy(str(_core.shipped_policy_path(str(_models()), text)))
     if os.sep in text or text.endswith(".pt"):
@@ -72,19 +73,52 @@ def evaluate(skill: str, episodes: int = 100, seed: int = 1,
         Error: for an unknown skill, or a policy of other sizes.
     """
     report = reporter(progress)
+    episodes, seed = checked.integer("episodes", episodes, 1), checked.seeded(seed)
+    cell = next((entry for entry in _core.cells() if entry["name"] == skill), None)
+    if cell is None:
+        raise _core.Error(f"skill: there is no {checked.shown(skill)} "
+                          f"(it is one of {', '.join(names())})")
+    acting = _acting(skill, policy)
     file = cell_tasks(skill, split, report=report)
     settings = _core.TaskSettings()
-    cell = next(entry for entry in _core.cells() if entry["name"] == skill)
     settings.robot = cell["robot"]
-    acting: Policy | None
-    if isinstance(policy, str):
-        if policy not in ("shipped", "expert"):
-            raise _core.Error(f"policy: is '{policy}' (give shipped, expert or a Policy)")
-        acting = load(skill) if policy == "shipped" else None
-    else:
-        acting = policy
     if acting is not None:
         settings.action_space = acting.metadata.get("action", "focus")
     task = _core.PreparedTask(str(file), ["*"], settings)
-    return cast("_types.Evaluation",
-                _core.evaluate(task, 0, acting, int(episodes), int(seed), report))
+    return cast("_types.Evaluation", _core.evaluate(task, 0, acting, episodes, seed, report))
+
+
+def _acting(skill: str, policy: Policy | _types.PolicyName) -> Policy | None:
+    """Returns the policy that ``evaluate`` runs, None for the expert; refuses one of other sizes."""
+    if isinstance(policy, str):
+        if policy not in ("shipped", "expert"):
+            raise _core.Error(f"policy: is '{policy}' (give shipped, expert or a Policy)")
+        return load(skill) if policy == "shipped" else None
+    checked.instance("policy", policy, Policy, "give shipped, expert or a Policy of skills.load")
+    try:
+        shipped = load(skill)
+    except _core.Error:
+        return policy  # the sizes are compared when the objects are made
+    # An observation ends with the action before.
+    wanted = shipped.observation_size - shipped.action_size + policy.action_size
+    if policy.observation_size != wanted:
+        raise _core.Error(f"policy: takes {policy.observation_size} numbers, {skill} has {wanted} "
+                          "(give a policy of this skill)")
+    return policy
+
+
+def wilson_interval(successes: int, count: int) -> tuple[float, float]:
+    """Returns the 95 % Wilson interval of a success rate.
+
+    Args:
+        successes (int): of the trials, 0 to ``count``.
+        count (int): number of trials.
+
+    Returns:
+        (low, high): shares, in [0, 1]; (0, 1) without trials.
+
+    Raises:
+        Error: for another type, or more successes than trials.
+    """
+    count = checked.integer("count", count, 0)
+    return _core.wilson_interval(checked.integer("successes", successes, 0, count), count)

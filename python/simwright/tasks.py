@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any, Iterable, cast
+from typing import TYPE_CHECKING, Any, cast
 
+from . import _arguments as checked
 from . import _core
 from ._progress import reporter
 
@@ -19,11 +19,12 @@ def read(file: Path) -> dict[str, Any]:
     """Returns the contents of a tasks.json as dicts and lists (docs/formats.md)."""
     import json
 
+    name = checked.path("file", file)
     try:
-        with open(file, encoding="utf-8") as stream:
+        with open(name, encoding="utf-8") as stream:
             return cast("dict[str, Any]", json.load(stream))
     except (OSError, ValueError) as error:
-        raise _core.Error(f"{fspath(file)}: cannot be read ({error})") from None
+        raise _core.Error(f"{name}: cannot be read ({error})") from None
 
 
 def make(assets: Paths, output: Path, count: int = 0, seed: int = 1, force: bool = False,
@@ -50,13 +51,14 @@ def make(assets: Paths, output: Path, count: int = 0, seed: int = 1, force: bool
     Raises:
         Error: if an asset cannot be read, the output exists, or the model is not reachable.
     """
-    if isinstance(assets, (str, PathLike)):
-        assets = [assets]
-    if llm and fspath(replay):
+    recorded = checked.path("replay", replay, required=False)
+    if llm and recorded:
         raise _core.Error("llm: is given beside replay (give one of them)")
     return cast("Report", _core.make_tasks(
-        [fspath(asset) for asset in assets], fspath(output), int(count), int(seed), bool(force),
-        str(llm), str(llm_model), fspath(llm_cache), fspath(replay), reporter(progress)))
+        checked.paths("assets", assets), checked.path("output", output),
+        checked.integer("count", count, 0), checked.seeded(seed), bool(force),
+        checked.text("llm", llm), checked.text("llm_model", llm_model),
+        checked.path("llm_cache", llm_cache, required=False), recorded, reporter(progress)))
 
 
 def train(file: Path, task: Names, output: Path, robot: str = "panda",
@@ -86,14 +88,17 @@ def train(file: Path, task: Names, output: Path, robot: str = "panda",
     Raises:
         Error: for an unknown task or a folder with another run.
     """
-    patterns = [task] if isinstance(task, str) else list(task)
     return cast("Report", _core.train_task(
-        fspath(file), patterns, fspath(output), robot, action_space, int(num_envs), int(samples),
-        float(minutes), int(imitated_samples), int(episodes), int(seed), bool(resume),
+        checked.path("file", file), checked.texts("task", task), checked.path("output", output),
+        checked.text("robot", robot), checked.text("action_space", action_space),
+        checked.integer("num_envs", num_envs, 1), checked.integer("samples", samples, 1),
+        checked.number("minutes", minutes, 0.0),
+        checked.integer("imitated_samples", imitated_samples, 0),
+        checked.integer("episodes", episodes, 1), checked.seeded(seed), bool(resume),
         reporter(progress)))
 
 
-def rollout(run: Path, episodes: int = 100, seed: int = 1, on: Path = "", tasks: Iterable[str] = (),
+def rollout(run: Path, episodes: int = 100, seed: int = 1, on: Path = "", tasks: Names = (),
             pictures: Path = "", progress: ProgressArgument = None) -> Report:
     """Measures the success rate of a training run.
 
@@ -102,7 +107,7 @@ def rollout(run: Path, episodes: int = 100, seed: int = 1, on: Path = "", tasks:
         episodes (int): number of episodes.
         seed (int): of their starts.
         on (path): a tasks.json with similar tasks to evaluate on; empty: the run's own.
-        tasks (list of str): names or patterns in it.
+        tasks (str or list of str): names or patterns in it.
         pictures (path): a PNG of an episode; empty: none.
         progress: see ``simwright``.
 
@@ -112,8 +117,10 @@ def rollout(run: Path, episodes: int = 100, seed: int = 1, on: Path = "", tasks:
     Raises:
         Error: if the folder has no run, or ``on`` does not match it.
     """
-    return cast("Report", _core.rollout(fspath(run), int(episodes), int(seed), fspath(on),
-                                        list(tasks), fspath(pictures), reporter(progress)))
+    return cast("Report", _core.rollout(
+        checked.path("run", run), checked.integer("episodes", episodes, 1), checked.seeded(seed),
+        checked.path("on", on, required=False), checked.texts("tasks", tasks),
+        checked.path("pictures", pictures, required=False), reporter(progress)))
 
 
 def export(run: Path, output: Path, format: TrajectoryFormat = "ros2", episodes: int = 1,
@@ -135,5 +142,7 @@ def export(run: Path, output: Path, format: TrajectoryFormat = "ros2", episodes:
     Raises:
         Error: for a file extension that does not match the format.
     """
-    return cast("Report", _core.export_run(fspath(run), fspath(output), format, int(episodes),
-                                           int(seed), bool(force), reporter(progress)))
+    return cast("Report", _core.export_run(
+        checked.path("run", run), checked.path("output", output), checked.text("format", format),
+        checked.integer("episodes", episodes, 1), checked.seeded(seed), bool(force),
+        reporter(progress)))

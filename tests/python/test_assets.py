@@ -87,6 +87,18 @@ def test_lift_refuses_what_it_cannot_read(tmp_path):
         sw.assets.check("/nowhere")
 
 
+@pytest.mark.parametrize("arguments, word", [
+    (dict(seed=-1), "seed"), (dict(seed=1.5), "seed"), (dict(count=0), "count"),
+    (dict(count="two"), "count"), (dict(kind=None), "kind"), (dict(output=""), "output.*empty"),
+])
+def test_library_refuses(arguments, word, tmp_path):
+    with pytest.raises(sw.Error, match=word):
+        sw.assets.library(**{"kind": "apple", "output": tmp_path / "out", **arguments})
+    with pytest.raises(sw.Error, match="unit"):
+        sw.assets.import_assets("chair.obj", tmp_path / "out", unit="mm")
+    assert not (tmp_path / "out").exists()
+
+
 def test_lift(tmp_path):
     lifted = sw.assets.lift(SOURCE / "examples" / "apple.jpg", "apple", tmp_path / "apple", fast=True,
                             shape="free")

@@ -170,6 +170,7 @@ def test_a_long_task():
     (dict(cameras=["back"]), "back"), (dict(images=["heat"]), "heat"), (dict(speed=3), "speed"),
     (dict(skill="apple_into_drawer", policy="shipped"), "no policy"),
     (dict(action_space="delta"), "focus"), (dict(split="test"), "split"),
+    (dict(seed=-1), "seed"), (dict(seed=1.5), "seed"), (dict(image_size=64.5), "image_size"),
 ])
 def test_bad_settings(kwargs, word):
     with pytest.raises(sw.Error, match=word):
@@ -266,6 +267,26 @@ def test_each_subtask_of_a_run_has_its_policy():
         states[0, :2] = np.arange(2) == index
         own = np.ascontiguousarray(states[:, 2:2 + policy.observation_size])
         np.testing.assert_array_equal(acting.act(states), policy.act(own))
+
+
+class Silent:
+    """A policy whose act returns nothing, or one action that is not in a batch."""
+
+    def __init__(self, answer=None):
+        self.answer = answer
+
+    def act(self, observations):
+        return self.answer
+
+
+@pytest.mark.parametrize("policy, word", [
+    (Silent(), r"the policy's act returned None \(return an array \(1, 7\)\)"),
+    (Silent(np.zeros(7)), r"act returned an array \(7,\)"),
+    (lambda env: None, "the function returned None"),
+])
+def test_policies_that_return_no_action(policy, word):
+    with pytest.raises(sw.Error, match=word):
+        next(demonstrations.record("open_drawer", 1, policy=policy, cameras=[], instances=4))
 
 
 def test_a_function_acts():

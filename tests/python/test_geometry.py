@@ -1,5 +1,7 @@
 """Meshes and geometry against closed forms."""
 
+import os
+
 import numpy as np
 import pytest
 
@@ -71,10 +73,64 @@ def test_convex_parts_of_an_l_shape():
     ([[0, 0, 0]] * 3, [[0, 1, 2**40]], "large"),
     ("mesh", [[0, 1, 2]], "real numbers"),
     ([[0, 0, 1j]] * 3, [[0, 1, 2]], "real numbers"),
+    ([[0, 0, 0]] * 3, [[0, 1, 2.7]], "triangles.*ints.*fraction"),
+    ([[0, 0, 0]] * 3, [[0, 1, np.nan]], "fraction"),
+    ([[0, 0, 0]] * 3, [[False, True, True]], "triangles.*bool"),
 ])
 def test_bad_meshes(vertices, triangles, word):
     with pytest.raises(sw.Error, match=word):
         sw.mesh(vertices, triangles)
+
+
+@pytest.mark.parametrize("arguments, word", [
+    (dict(seed=1.5), "seed: is 1.5"), (dict(seed=-1), "seed: is -1.*from 0 to"),
+    (dict(seed=2**64), "seed"), (dict(seed=True), "seed"), (dict(max_parts=-1), "max_parts"),
+    (dict(max_vertices=8), "max_vertices.*at least 16"), (dict(threshold="fine"), "threshold"),
+    (dict(threshold=np.nan), "threshold"), (dict(solid=None), "solid.*NoneType"),
+    (dict(solid="cube.obj"), "solid.*read_mesh"),
+])
+def test_decompose_refuses(cube, arguments, word):
+    with pytest.raises(sw.Error, match=word):
+        sw.geometry.decompose(**{"solid": cube, **arguments})
+
+
+@pytest.mark.parametrize("density, word", [("x", "density: is 'x'"), (None, "density"),
+                                           (np.inf, "density"), (True, "density")])
+def test_mass_properties_refuse(cube, density, word):
+    with pytest.raises(sw.Error, match=word):
+        sw.geometry.mass_properties(cube, density)
+    with pytest.raises(sw.Error, match="wall_thickness"):
+        sw.geometry.mass_properties(cube, 1.0, wall_thickness="thin")
+    with pytest.raises(sw.Error, match="mesh.*list"):
+        sw.geometry.mass_properties([cube], 1.0)
+
+
+@pytest.mark.parametrize("count", [-1, 1.5, "all", True])
+def test_bad_counts_of_threads(count):
+    with pytest.raises(sw.Error, match="count: is "):
+        sw.set_threads(count)
+
+
+def test_a_file_goes_straight_into_the_geometry(cube, tmp_path):
+    lines = [f"v {x} {y} {z}" for x, y, z in cube.vertices]
+    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in cube.triangles]
+    (tmp_path / "cube.obj").write_text("\n".join(lines))
+    textured = sw.geometry.read_mesh(tmp_path / "cube.obj")
+    assert isinstance(textured, sw.TexturedMesh)
+    assert sw.geometry.mass_properties(textured, 600.0).mass == pytest.approx(600.0)
+    solid, _ = sw.geometry.make_solid(textured)
+    assert sw.geometry.mass_properties(solid, 1.0).volume == pytest.approx(1.0)
+    parts, _ = sw.geometry.decompose(textured)
+    assert len(parts) == 1
+
+
+@pytest.mark.parametrize("path, word", [
+    ("", "empty"), (3, "path: is 3, of the type int"), ("\0x", "NUL"), (None, "NoneType"),
+    (os.fsdecode(b"\xff.obj"), "UTF-8"), (b"\xff.obj", "UTF-8"),
+])
+def test_bad_paths(path, word):
+    with pytest.raises(sw.Error, match=word):
+        sw.geometry.read_mesh(path)
 
 
 def test_errors_say_where(cube):

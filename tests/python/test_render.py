@@ -113,6 +113,35 @@ def test_bad_arguments(cube):
         renderer.set_vertices(np.zeros((3, 3)))
     with pytest.raises(sw.Error, match="colors"):
         sw.render.DifferentiableRenderer(cube, colors=np.zeros((3, 3)))
+    with pytest.raises(sw.Error, match="mesh.*NoneType"):
+        sw.render.DifferentiableRenderer(None)
+    with pytest.raises(sw.Error, match="no direction"):
+        sw.render.studio_light([0, 0, 0])
+    with pytest.raises(sw.Error, match="width"):
+        sw.render.camera(64.5, 4, 1.0, 1.0, 2, 2, np.eye(4))
+
+
+@pytest.mark.parametrize("arguments, word", [
+    (dict(meshes="cube.obj"), "meshes.*read_mesh"), (dict(meshes=3), "meshes"),
+    (dict(meshes=["cube.obj"]), "meshes.*read_mesh"), (dict(camera=None), "camera.*NoneType"),
+    (dict(samples_per_side=1.5), "samples_per_side"), (dict(samples_per_side=np.nan), "samples_per_side"),
+    (dict(samples_per_side=0), "samples_per_side"), (dict(occlusion_rays=-1), "occlusion_rays"),
+])
+def test_render_refuses(cube, arguments, word):
+    with pytest.raises(sw.Error, match=word):
+        sw.render.render(**{"meshes": cube, "camera": look_down(), **arguments})
+
+
+def test_torch_is_given_tensors(cube):
+    torch = pytest.importorskip("torch")
+    renderer = sw.render.DifferentiableRenderer(cube)
+    vertices = torch.tensor(cube.vertices)
+    with pytest.raises(sw.Error, match="vertices.*ndarray.*torch.Tensor"):
+        sw.autograd.render(renderer, look_down(), cube.vertices)
+    with pytest.raises(sw.Error, match="light.*torch.Tensor"):
+        sw.autograd.render(renderer, look_down(), vertices, light=sw.render.studio_light())
+    with pytest.raises(sw.Error, match="renderer"):
+        sw.autograd.render(cube, look_down(), vertices)
 
 
 @pytest.mark.parametrize("change, says", [

@@ -108,3 +108,33 @@ def test_errors(program):
         program(**{**inputs, "goal": inputs["goal"][:4]})
     with pytest.raises(sw.Error, match="real|array"):
         program(**{**inputs, "speed": object()})
+    with pytest.raises(sw.Error, match="batch of 0"):
+        program(**{key: value[:0] for key, value in inputs.items()})
+    with pytest.raises(sw.Error, match="count: is 2.5"):
+        program(inputs, count=2.5)
+
+
+def test_tensors_without_a_counterpart_are_refused(program):
+    torch = pytest.importorskip("torch")
+    inputs = {key: torch.from_numpy(value) for key, value in batch(4).items()}
+    with pytest.raises(sw.Error, match=r"'speed'.*speed\.detach\(\)"):
+        program({**inputs, "speed": inputs["speed"].clone().requires_grad_()})
+    with pytest.raises(sw.Error, match="'speed'.*BFloat16.*float32"):
+        program({**inputs, "speed": inputs["speed"].to(torch.bfloat16)})
+
+
+SQUARE = "def compute_reward(x, y):\n    return x * x\n"
+
+
+@pytest.mark.parametrize("arguments, word", [
+    (dict(source=None), "source.*NoneType"), (dict(source=SQUARE.encode()), "source.*bytes"),
+    (dict(shapes={"zz": [3]}), "'zz' is no parameter of compute_reward.*x"),
+    (dict(shapes={"x": 3}), "shapes: 'x'"), (dict(shapes={"x": [2.5]}), "shapes: 'x'"),
+    (dict(shapes=[3]), "shapes"), (dict(assets="nope"), "nope"), (dict(assets=3), "assets"),
+    (dict(entry=None), "entry"),
+])
+def test_compile_refuses(arguments, word):
+    with pytest.raises(sw.Error, match=word):
+        sw.rewards.compile(**{"source": SQUARE, **arguments})
+    # A parameter that the program does not read has a shape too.
+    assert sw.rewards.compile(SQUARE, shapes={"y": [3]}).entry == "compute_reward"

@@ -64,4 +64,13 @@ def test_bad_scenes(mugs, tmp_path):
         sw.scenes.sample(tmp_path / "x", type="opera")
     with pytest.raises(sw.Error):
         sw.scenes.read(tmp_path)
+    with pytest.raises(sw.Error, match="seed"):
+        sw.scenes.generate("dimsum", tmp_path / "x", count=1, seed=-1)
+    with pytest.raises(sw.Error, match="count"):
+        sw.scenes.sample(tmp_path / "x", type="dimsum", count=1.5)
+    with pytest.raises(sw.Error, match="objects.*SceneObject"):
+        sw.scenes.total_penetration(["mug"], assets)
+    with pytest.raises(sw.Error, match="assets.*AssetSet"):
+        sw.scenes.make_feasible([], str(mugs))
+    assert not (tmp_path / "x").exists()
     assert "dimsum" in sw.scenes.types()

@@ -67,6 +67,18 @@ def test_a_language_model_is_asked(chest, by_rules, server, tmp_path, monkeypatc
     assert len(requests) == asked
 
 
+@pytest.mark.parametrize("call, word", [
+    (lambda file: sw.tasks.train(file, "open_*", "out", num_envs=0), "num_envs"),
+    (lambda file: sw.tasks.train(file, 3, "out"), "task: is 3"),
+    (lambda file: sw.tasks.rollout("out", seed=-1), "seed"),
+    (lambda file: sw.tasks.export("out", file, episodes=0), "episodes"),
+    (lambda file: sw.tasks.make(3, file), "assets"), (lambda file: sw.tasks.read(3), "file: is 3"),
+])
+def test_bad_arguments(call, word, tmp_path):
+    with pytest.raises(sw.Error, match=word):
+        call(tmp_path / "tasks.json")
+
+
 def test_bad_models(chest, tmp_path, monkeypatch):
     monkeypatch.delenv("SIMWRIGHT_LLM_URL", raising=False)
     with pytest.raises(sw.Error, match="SIMWRIGHT_LLM_URL"):

@@ -76,6 +76,23 @@ def test_hints_cost_no_import_and_are_python_3_9():
         ast.parse(file.read_text(), feature_version=(3, 9))
 
 
+def test_modules_are_imported_at_their_first_use():
+    """The attributes of the package that need torch or Stable-Baselines3 cost nothing before."""
+    program = """
+import sys
+import simwright
+assert not {"torch", "stable_baselines3", "simwright.demonstrations"} & set(sys.modules)
+assert callable(simwright.demonstrations.record) and callable(simwright.envs.SkillEnv)
+assert not hasattr(simwright, "nothing")
+print(simwright.autograd.render.__module__, simwright.sb3.VecEnv.__name__)
+"""
+    for needed in ("gymnasium", "stable_baselines3", "torch"):
+        pytest.importorskip(needed)
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                         timeout=120, env={**os.environ, "PYTHONPATH": str(PACKAGE.parent)})
+    assert run.stdout == "simwright.autograd VecEnv\n", run.stderr
+
+
 @pytest.mark.parametrize("module", ["assets", "cameras", "demonstrations", "envs", "geometry",
                                     "physics", "render", "rewards", "scenes", "skills", "tasks"])
 def test_each_public_function_is_annotated(module):
