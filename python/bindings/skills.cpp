@@ -59,7 +59,7 @@ nb::ndarray<nb::numpy, float> ActOn(const rl::Policy& policy, nb::handle observa
     throw core::Error("are not an array of numbers", what, "give (n, O) float32");
   }
   if (nb::cast<int>(rows.attr("ndim")) != 2) {
-    throw core::Error("have the shape " + std::string(nb::str(rows.attr("shape")).c_str()), what,
+    throw core::Error("have the shape " + std::string(nb::repr(rows.attr("shape")).c_str()), what,
                       "give (n, O), one row per observation");
   }
   return Act(policy, nb::cast<RowsArgument>(rows));
@@ -89,7 +89,7 @@ nb::dict EvaluationDict(const skills::SkillEvaluation& evaluation) {
 void BindPolicy(nb::module_& module) {
   nb::class_<rl::Policy>(module, "Policy", "A trained policy, frozen; thread-safe.")
       .def(
-          "act", &ActOn, "observations"_a,
+          "act", &ActOn, "observations"_a.none(),
           "Returns the mean actions (n, A) float32 in [-1, 1] of `observations` (n, O) float32.\n\n"
           "Raises:\n    Error: for another number of columns.")
       .def_prop_ro("observation_size", &rl::Policy::observation_size, "O")
