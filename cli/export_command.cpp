@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <initializer_list>
 #include <map>
 #include <memory>
 
@@ -114,6 +115,7 @@ int ExportImages(const ExportFlags& flags, const CommonOptions& common) {
   request.output = flags.output;
   request.episodes = flags.motions.episodes;
   request.seed = common.seed;
+  request.threads = common.threads;
   request.quiet = common.quiet;
   request.json = common.json;
   if (common.force) {
@@ -127,6 +129,22 @@ int ExportAs(const ExportFlags& flags, const CommonOptions& common) {
   if (HasImages(flags)) return ExportImages(flags, common);
   return kPolicyFormats.contains(flags.format) ? ExportModels(flags, common)
                                                : ExportMotions(flags, common);
+}
+
+// Throws CLI::ParseError for an option that the chosen kind of export does not use.
+void RequireUsedOptions(const CLI::App& command, const ExportFlags& flags) {
+  const bool images = HasImages(flags);
+  const auto refuse = [&command](std::initializer_list<const char*> options, const char* what) {
+    for (const char* option : options) {
+      if (command.count(option) > 0) throw CLI::ValidationError(option, what);
+    }
+  };
+  if (!images) {
+    refuse({"--image-size", "--look", "--policy", "--keep"},
+           "needs --format lerobot or mcap, or --cameras");
+  } else {
+    refuse({"--joint-names", "--pace"}, "is not for demonstrations with images");
+  }
 }
 
 // Throws CLI::ParseError for flags that do not belong together.
@@ -243,8 +261,9 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
   AddRecordingOptions(command, flags);
   AddCommon(command, common);
   AddForce(command, common);
-  command->callback([flags, common, run] {
+  command->callback([command, flags, common, run] {
     RequireExportSource(*flags);
+    RequireUsedOptions(*command, *flags);
     *run = [=] { return ExportAs(*flags, *common); };
   });
 }

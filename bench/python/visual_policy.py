@@ -20,7 +20,7 @@ the state is not used afterwards.
 
 Each stage is resumed where it stopped: recording by blocks of 20 demonstrations, training by epoch,
 measuring by episode. --minutes bounds the training. docs/demonstrations.md has the results, and
-what failed before.
+those of earlier designs.
 """
 
 import argparse
@@ -237,12 +237,12 @@ class VisualPolicy(nn.Module):
         for width, stride in ((16, 2), (32, 2), (48, 1), (48, 1)):
             layers += [nn.Conv2d(channels, width, 3, stride, 1), nn.ReLU()]
             channels = width
-        # Five times as fast on a processor as 32 and 64 channels with GroupNorm, channels first.
+        # The layout "channels last" without normalisation is fast on a processor.
         self.eye = nn.Sequential(*layers).to(memory_format=torch.channels_last)
         self.trunk = nn.Sequential(nn.Linear(3 * channels + INPUTS, 512), nn.ReLU(), nn.Dropout(0.1),
                                    nn.Linear(512, 512), nn.ReLU())
         self.head = nn.Linear(512, 7 * chunk)
-        # Where the trunk has seen nothing alike, the motion still points to the goal.
+        # A linear path from the inputs, which extrapolates to goals outside the training set.
         self.direct = nn.Linear(INPUTS, 7 * chunk, bias=False)
         self.state = nn.Linear(512, state_size)
         for name, shape in (("mean", (INPUTS,)), ("scale", (INPUTS,)), ("motion_scale", (chunk, 6))):
@@ -265,7 +265,7 @@ class VisualPolicy(nn.Module):
         that the gripper opens (N, chunk), and the estimated standardised state (N, O). ``shift``:
         pixels of random translation, while training."""
         pixels = images.permute(0, 3, 1, 2).float() / 255 - 0.5
-        if self.training:  # other colours
+        if self.training:  # random gain of each colour channel
             pixels = pixels * (0.8 + 0.4 * torch.rand(len(pixels), 3, 1, 1))
         if shift:
             side = pixels.shape[-1]
@@ -274,7 +274,7 @@ class VisualPolicy(nn.Module):
             pixels = pixels[:, :, top:top + side, left:left + side]
         seen = self._points(self.eye(pixels.contiguous(memory_format=torch.channels_last)))
         known = (inputs - self.mean) / self.scale
-        if self.training:  # the goal of another drawer, a little
+        if self.training:  # noise, so that no demonstration is known by its exact goal
             known = known + 0.03 * torch.randn_like(known)
         features = self.trunk(torch.cat([known, seen], dim=1))
         actions = (self.head(features) + self.direct(known)).view(len(features), self.chunk, 7)

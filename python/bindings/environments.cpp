@@ -184,7 +184,7 @@ FloatArray SingleEpisode::Begin(std::uint64_t seed, std::uint64_t index) {
 }
 
 FloatArray SingleEpisode::BeginAfter(const SingleEpisode& previous) {
-  const ExclusiveUse use(&used_, kName);
+  const ExclusiveUse use(&used_, kName), of_previous(&previous.used_, kName);
   previous.RequireStarted();
   {
     const nb::gil_scoped_release released;

@@ -7,6 +7,7 @@ import json
 import sys
 from typing import TYPE_CHECKING, Any, Callable, Sequence
 
+from . import _arguments as checked
 from . import _core, demonstrations, skills
 from ._output import need
 
@@ -43,6 +44,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--actions", choices=["joint_targets", "policy"], default="joint_targets",
         help="commanded joints, or the policy's actions relative to the object")
     add("--seed", type=int, default=1, help="of the episodes and their looks")
+    add("--threads", type=int, default=0, help="number of threads; 0: all")
     add("--quiet", action="store_true", help="shows no progress")
     add("--json", action="store_true", help="prints the report as JSON")
     return parser
@@ -53,6 +55,7 @@ def _write(told: argparse.Namespace) -> WrittenTotals:
     settings: dict[str, Any] = {} if told.instances is None else {"instances": told.instances}
     if told.skill in skills.names():
         settings["split"] = told.split
+    _core.set_threads(checked.integer("threads", told.threads, 0))
     module, extra, write = _FORMATS[told.format]
     need(module, extra)
     episodes = demonstrations.record(

@@ -224,7 +224,8 @@ def _environment(skill: str | None, acting: Any, settings: dict[str, Any],
     try:
         from . import envs
     except ImportError:
-        raise _core.Error("demonstrations: need Gymnasium (in the source folder: pip install '.[gym]')") from None
+        raise _core.Error("demonstrations: need Gymnasium (in the source folder: "
+                          "pip install '.[gym]')") from None
     action_space = getattr(acting, "metadata", {}).get("action", "focus")
     settings = {"action_space": action_space, **settings}
     if acting is None and settings["action_space"] != "focus":

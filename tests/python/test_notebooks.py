@@ -22,7 +22,7 @@ FOLDER = SOURCE / "docs" / "notebooks"
 # The most code cells of a notebook, and the fewest pictures that it shows.
 MOST_CELLS = 12
 PICTURES = {"photo_to_asset": 4, "reward_to_policy": 5, "scene_to_simulator": 4, "lerobot": 3}
-# What a notebook cannot do without, apart from the tests' own requirements.
+# The package that a notebook needs beside those of requirements.txt.
 NEEDS = {"lerobot": "lerobot"}
 CELL_SECONDS = 300
 

@@ -42,13 +42,15 @@ TEST_F(ImageExportCommand, PassesTheOptionsAndTheExitCode) {
             "-m simwright.demonstrations --skill open_drawer --format lerobot --output drawers "
             "--episodes 3 --cameras front,wrist --image-size 128 --look none --keep successes "
             "--seed 5 --policy shipped\n");
-  const Outcome run = RunWith(kEcho,
-                              "RUN --format robomimic --cameras wrist --image-size 64 --look wide "
-                              "--keep all --policy expert --episodes 2 --quiet --json -o a.hdf5");
-  EXPECT_EQ(run.text,
-            "-m simwright.demonstrations --run RUN --format robomimic --output a.hdf5 --episodes 2 "
-            "--cameras wrist --image-size 64 --look wide --keep all --seed 1 --policy expert "
-            "--quiet --json\n");
+  const Outcome run =
+      RunWith(kEcho,
+              "RUN --format robomimic --cameras wrist --image-size 64 --look wide "
+              "--keep all --policy expert --episodes 2 --threads 1 --quiet --json -o a.hdf5");
+  EXPECT_EQ(
+      run.text,
+      "-m simwright.demonstrations --run RUN --format robomimic --output a.hdf5 --episodes 2 "
+      "--cameras wrist --image-size 64 --look wide --keep all --seed 1 --threads 1 --policy expert "
+      "--quiet --json\n");
   // A long task has no trained policy of its own.
   const Outcome chain = RunWith(kEcho, "--skill apple_into_drawer --format mcap -o out");
   EXPECT_EQ(chain.text.find("--policy"), std::string::npos) << chain.text;
@@ -71,6 +73,15 @@ TEST_F(ImageExportCommand, RefusesOptionsThatDoNotBelongTogether) {
   ExpectRefused(RunWith(kEcho, "--skill open_drawer --format lerobot --force -o x"), 1, "--force");
   EXPECT_EQ(RunProgram("export RUN --format csv --cameras front -o x.csv").code, 2);
   EXPECT_EQ(RunProgram("export --format lerobot -o x").code, 2);
+  // An option is refused where it has no effect.
+  for (const char* unused :
+       {"RUN --format csv --image-size 64 -o x.csv", "RUN --format ros2 --look wide -o x.yaml",
+        "--skill open_drawer --format onnx --keep all -o x.onnx",
+        "RUN --format robomimic --policy expert -o x.hdf5",
+        "RUN --format lerobot --joint-names fr3 -o x", "RUN --format mcap --pace recorded -o x"}) {
+    const Outcome outcome = RunProgram(std::string("export ") + unused);
+    EXPECT_EQ(outcome.code, 2) << unused << ": " << outcome.text;
+  }
   EXPECT_EQ(RunProgram("export --skill open_drawer --format robomimic -o x.hdf5").code, 2);
 }
 

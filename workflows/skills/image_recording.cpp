@@ -93,6 +93,7 @@ std::vector<std::string> RecordingCommand(const std::string& python,
   add("--look", request.look);
   add("--keep", request.keep);
   add("--seed", std::to_string(request.seed));
+  if (request.threads > 0) add("--threads", std::to_string(request.threads));
   std::string policy = request.policy;
   if (!request.skill.empty() && HasShippedPolicy(request.skill) && policy.empty()) {
     policy = "shipped";

@@ -20,6 +20,7 @@ struct ImageRecordingRequest {
   std::string policy;              // expert or shipped; empty: the trained one, if there is one
   std::string keep = "successes";  // or all: failed episodes too
   std::uint64_t seed = 1;
+  int threads = 0;  // 0: all
   bool quiet = false, json = false;
 };
 
