@@ -87,6 +87,13 @@ void BindLook(nb::module_& module) {
                          "Ranges of a randomised look (docs/cameras.md); all are off by default.")
       .def(nb::init<>())
       .def_static("wide", &LookRanges::Wide, "Returns the ranges of the look \"wide\".")
+      .def(
+          "check",
+          [](const LookRanges& look) {
+            std::string error;
+            if (!look.IsValid(&error)) throw core::Error(error, "look", "docs/cameras.md has the ranges");
+          },
+          "Raises Error for a value outside its bounds.")
       .def_rw("object_color", &LookRanges::object_color, "share of objects in a random colour")
       .def_rw("robot_color", &LookRanges::robot_color, "share of episodes")
       .def_rw("tint", &LookRanges::tint, "amount per channel, [0, 1)")

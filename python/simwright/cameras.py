@@ -96,8 +96,14 @@ def look(value: Look = None) -> LookRanges:
     """Returns ranges of a randomised look: of None (off), "wide", a dict, or LookRanges.
 
     Raises:
-        Error: for another name.
+        Error: for another name, or a value outside its bounds.
     """
+    ranges = _ranges(value)
+    ranges.check()
+    return ranges
+
+
+def _ranges(value: Look) -> LookRanges:
     if value is None:
         return LookRanges()
     if isinstance(value, LookRanges):

@@ -82,7 +82,7 @@ def test_bad_cameras(arguments, word):
 def test_bad_default_cameras_and_looks():
     with pytest.raises(sw.Error, match="width: is -1"):
         sw.cameras.defaults(-1, 0)
-    for look in ("narrow", 3, {"wide": 1.0}, {"tint": "red"}, {"shadow": (0.1,)}):
+    for look in ("narrow", 3, {"wide": 1.0}, {"tint": "red"}, {"tint": 5}, {"shadow": (0.1,)}):
         with pytest.raises(sw.Error, match="look: "):
             sw.cameras.look(look)
 
