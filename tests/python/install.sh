@@ -13,7 +13,7 @@ mkdir -p "$work"
 # The settings of the build folder: with others, CMake would delete the test programs.
 defines=()
 for name in WERROR TESTS BENCH; do
-  defines+=("SIMWRIGHT_$name=$(sed -n "s/^SIMWRIGHT_$name:BOOL=//p" "$build/CMakeCache.txt")")
+  defines+=("SIMWRIGHT_$name=$(sed -n "s/^SIMWRIGHT_$name:[A-Z]*=//p" "$build/CMakeCache.txt")")
 done
 restore() {
   cd "$source"

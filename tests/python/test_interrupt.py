@@ -12,7 +12,7 @@ LONG = """
 import sys, simwright as sw
 print("ready", flush=True)
 try:
-    sw.scenes.generate("pantry_shelf", sys.argv[1], count=100000, progress=False)
+    sw.scenes.generate("dimsum", sys.argv[1], count=100000, progress=False)
 except KeyboardInterrupt:
     print("stopped", flush=True)
 # Work after the interruption goes on as usual.
@@ -40,13 +40,13 @@ ended = []
 
 def work(name, count):
     try:
-        sw.scenes.generate("pantry_shelf", f"{sys.argv[1]}_{name}", count=count, progress=False)
+        sw.scenes.generate("dimsum", f"{sys.argv[1]}_{name}", count=count, progress=False)
         ended.append(f"{name} done")
     except KeyboardInterrupt:
         ended.append(f"{name} stopped")
 
 # The first call, which ends by itself, is in progress when the second begins.
-first = threading.Thread(target=work, args=("first", 4))
+first = threading.Thread(target=work, args=("first", 2))
 second = threading.Thread(target=work, args=("second", 100000))
 first.start()
 time.sleep(0.05)
@@ -78,14 +78,15 @@ def test_ctrl_c_stops_the_call_that_outlives_another(tmp_path):
 STOPPED = """
 import sys, simwright as sw
 calls = {
-    "evaluate": lambda: sw.skills.evaluate("open_drawer", 100000, split="train", progress=False),
+    "evaluate": lambda: sw.skills.evaluate("open_drawer", 100000, progress=False),
     "library": lambda: sw.assets.library("microwave", sys.argv[2], count=200, progress=True),
     "render": lambda: sw.render.render(
         sw.mesh([[-9, -9, 0], [9, -9, 0], [0, 9, 0]], [[0, 1, 2]]),
         sw.render.orbit_camera((0, 0, 0), 2.0, 0.5, 0.0, 1.0, 2000, 2000), samples_per_side=8,
         occlusion_rays=1000),
 }
-sw.skills.evaluate("open_drawer", 1, split="train", progress=False)  # makes the objects
+if sys.argv[1] == "evaluate":
+    sw.skills.evaluate("open_drawer", 1, progress=False)  # makes the objects
 print("ready", flush=True)
 try:
     calls[sys.argv[1]]()
