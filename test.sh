@@ -6,13 +6,25 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 ./setup.sh --tests
-python_flags=-DSIMWRIGHT_PYTHON=OFF
-if [ "${SIMWRIGHT_PYTHON:-ON}" != OFF ]; then
-  ./setup.sh --python
-  python_flags="-DSIMWRIGHT_PYTHON=ON -DPython_EXECUTABLE=$PWD/.venv-python/bin/python"
+build() {
+  # shellcheck disable=SC2086  # several flags
+  cmake --preset release -DSIMWRIGHT_TESTS=ON ${SIMWRIGHT_CMAKE_FLAGS:-} "$@" >/dev/null
+  cmake --build --preset release
+}
+if [ "${SIMWRIGHT_PYTHON:-ON}" = OFF ]; then
+  build -DSIMWRIGHT_PYTHON=OFF
+else
+  if ! cmp -s tests/python/requirements.txt .venv-python/requirements.txt; then
+    # The C++ code compiles while pip fetches.
+    ./setup.sh --python &
+    fetching=$!
+    trap 'kill "$fetching" 2>/dev/null || true' EXIT
+    build -DSIMWRIGHT_PYTHON=OFF
+    wait "$fetching"
+    trap - EXIT
+  fi
+  build -DSIMWRIGHT_PYTHON=ON -DPython_EXECUTABLE="$PWD/.venv-python/bin/python"
 fi
-cmake --preset release -DSIMWRIGHT_TESTS=ON $python_flags ${SIMWRIGHT_CMAKE_FLAGS:-} >/dev/null
-cmake --build --preset release
 built=$SECONDS
 ctest --test-dir build --no-tests=error --output-on-failure -j "$(nproc)" "$@" | tee build/test.log
 echo "test.sh: built in $built s, tested in $((SECONDS - built)) s"

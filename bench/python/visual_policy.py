@@ -41,6 +41,7 @@ BLOCK = 20
 LEAD = 3
 INPUTS = 15  # numbers of `inputs_of`
 PROTRUDES = 0.008  # m before the face
+FAR = 0.6  # m, the largest depth that the network tells apart
 
 
 def rotation_vectors(rotations):
@@ -159,6 +160,16 @@ def cameras_of(told):
             "look": told.look, "images": ["rgb", "depth", "segmentation"]}
 
 
+def wrist_rays(intrinsics, tool_from_camera, size):
+    """Returns the directions (3, size, size) in the tool's frame that times the depth give the
+    points of the wrist's pixels from the camera, and the camera's position there (3), m."""
+    fx, fy, cx, cy = intrinsics
+    rows, columns = np.mgrid[:size, :size] + 0.5
+    rays = np.stack([(columns - cx) / fx, (rows - cy) / fy, np.ones((size, size))])
+    turned = np.tensordot(tool_from_camera[:3, :3], rays, axes=1)
+    return turned.astype(np.float32), tool_from_camera[:3, 3].astype(np.float32)
+
+
 def record(told, folder):
     """Records the demonstrations that are missing; returns the paths of all blocks."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -170,8 +181,8 @@ def record(told, folder):
             continue
         began = time.monotonic()
         count = min(BLOCK, told.demos - block * BLOCK)
-        rows = {key: [] for key in ("wrist", "tools", "openings", "grippers", "states", "pushed",
-                                    "goals", "lengths")}
+        rows = {key: [] for key in ("wrist", "depths", "rays", "eyes", "tools", "openings",
+                                    "grippers", "states", "pushed", "goals", "lengths")}
         expert = PushedExpert(told.pushes, [told.seed, block])
         for episode in demonstrations.record(
                 told.skill, count, policy=expert, seed=told.seed + block, progress=False,
@@ -180,8 +191,13 @@ def record(told, folder):
                 episode.images["shoulder_depth"][0], episode.images["shoulder_segmentation"][0],
                 episode.legend, np.linalg.inv(episode.base) @ episode.camera_poses["shoulder"][0],
                 episode.intrinsics["shoulder"])
+            rays, eye = wrist_rays(
+                episode.intrinsics["wrist"], np.linalg.inv(episode.base @ episode.tools[0])
+                @ episode.camera_poses["wrist"][0], told.image_size)
             for key, value in (
-                    ("wrist", episode.images["wrist"][:-1]), ("tools", episode.tools[:-1]),
+                    ("wrist", episode.images["wrist"][:-1]), ("rays", rays[None]),
+                    ("depths", episode.images["wrist_depth"][:-1].astype(np.float16)),
+                    ("eyes", eye[None]), ("tools", episode.tools[:-1]),
                     ("openings", episode.openings[:-1]), ("grippers", episode.targets[:, -1]),
                     ("states", episode.states[:-1]), ("pushed", np.array(expert.pushed)),
                     ("goals", goal_of(points)[None]), ("lengths", [len(episode)])):
@@ -209,6 +225,8 @@ class Demonstrations:
         pushed = np.logical_or.accumulate(rows["pushed"][steps], axis=1)[:, LEAD:]
         self.known = torch.tensor(~pushed, dtype=torch.float32)
         self.wrist = torch.from_numpy(rows["wrist"])
+        self.depths = torch.from_numpy(rows["depths"])
+        self.rays, self.eye = (torch.from_numpy(rows[key][0]) for key in ("rays", "eyes"))
         self.inputs = torch.from_numpy(inputs_of(rows["tools"], rows["openings"],
                                                  np.repeat(rows["goals"], lengths, axis=0)))
         self.motions = torch.from_numpy(self._motions(rows["tools"], steps[:, LEAD:]))
@@ -228,18 +246,22 @@ class Demonstrations:
 
 
 class VisualPolicy(nn.Module):
-    """A convolutional network for the image, and a multilayer perceptron over all inputs."""
+    """A convolutional network for the image with depth, whose features become points in the tool's
+    frame, and a multilayer perceptron over all inputs."""
 
-    def __init__(self, chunk, state_size):
+    def __init__(self, chunk, state_size, rays, eye):
+        """Takes what `wrist_rays` returns."""
         super().__init__()
         self.chunk = chunk
-        layers, channels = [], 3
+        self.register_buffer("rays", rays)
+        self.register_buffer("eye", eye)
+        layers, channels = [], 6
         for width, stride in ((16, 2), (32, 2), (48, 1), (48, 1)):
             layers += [nn.Conv2d(channels, width, 3, stride, 1), nn.ReLU()]
             channels = width
         # The layout "channels last" without normalisation is fast on a processor.
-        self.eye = nn.Sequential(*layers).to(memory_format=torch.channels_last)
-        self.trunk = nn.Sequential(nn.Linear(3 * channels + INPUTS, 512), nn.ReLU(), nn.Dropout(0.1),
+        self.features = nn.Sequential(*layers).to(memory_format=torch.channels_last)
+        self.trunk = nn.Sequential(nn.Linear(4 * channels + INPUTS, 512), nn.ReLU(), nn.Dropout(0.1),
                                    nn.Linear(512, 512), nn.ReLU())
         self.head = nn.Linear(512, 7 * chunk)
         # A linear path from the inputs, which extrapolates to goals outside the training set.
@@ -249,30 +271,33 @@ class VisualPolicy(nn.Module):
             self.register_buffer(name, torch.ones(shape))
 
     @staticmethod
-    def _points(features):
-        """Returns each feature map's mean, and its mean position by softmax over its pixels
-        (N, 3 C)."""
-        features = features.contiguous()
-        count, channels, height, width = features.shape
-        weights = torch.softmax(features.flatten(2), dim=2).view(count, channels, height, width)
-        rows = torch.linspace(-1, 1, height)
-        columns = torch.linspace(-1, 1, width)
-        return torch.cat([features.mean(dim=(2, 3)), (weights.sum(3) * rows).sum(2),
-                          (weights.sum(2) * columns).sum(2)], dim=1)
+    def _keypoints(features, points):
+        """Returns each feature map's mean, and the mean of the pixels' points weighted by the
+        softmax of the map (N, 4 C)."""
+        stride = points.shape[-1] // features.shape[-1]
+        points = points[:, :, stride // 2::stride, stride // 2::stride].flatten(2)
+        features = features.contiguous().flatten(2)
+        found = torch.softmax(features, dim=2) @ points.transpose(1, 2)
+        return torch.cat([features.mean(dim=2), found.flatten(1)], dim=1)
 
-    def forward(self, images, inputs, shift=0):
+    def forward(self, images, depths, inputs, shift=0):
         """Returns a chunk of motions (N, chunk, 6), poses in the present tool's frame, the logits
         that the gripper opens (N, chunk), and the estimated standardised state (N, O). ``shift``:
         pixels of random translation, while training."""
         pixels = images.permute(0, 3, 1, 2).float() / 255 - 0.5
-        if self.training:  # random gain of each colour channel
+        depths = torch.where(depths > 0, depths.float().clamp(max=FAR), FAR)[:, None]
+        if self.training:  # random gain of each colour channel; noise of the depth
             pixels = pixels * (0.8 + 0.4 * torch.rand(len(pixels), 3, 1, 1))
+            depths = depths * (1 + 0.005 * torch.randn_like(depths))
+        points = (self.rays * depths + self.eye[:, None, None]) / FAR
+        seen = torch.cat([pixels, points], dim=1)
         if shift:
             side = pixels.shape[-1]
-            pixels = nn.functional.pad(pixels, [shift] * 4, mode="replicate")
+            seen = nn.functional.pad(seen, [shift] * 4, mode="replicate")
             top, left = torch.randint(0, 2 * shift + 1, (2,)).tolist()
-            pixels = pixels[:, :, top:top + side, left:left + side]
-        seen = self._points(self.eye(pixels.contiguous(memory_format=torch.channels_last)))
+            seen = seen[:, :, top:top + side, left:left + side]
+        features = self.features(seen.contiguous(memory_format=torch.channels_last))
+        seen = self._keypoints(features, 3 * seen[:, 3:])
         known = (inputs - self.mean) / self.scale
         if self.training:  # noise, so that no demonstration is known by its exact goal
             known = known + 0.03 * torch.randn_like(known)
@@ -283,7 +308,8 @@ class VisualPolicy(nn.Module):
 
 def losses_of(policy, data, frames, shift):
     """Returns the losses of the actions and of the state."""
-    motions, opens, states = policy(data.wrist[frames], data.inputs[frames], shift)
+    motions, opens, states = policy(data.wrist[frames], data.depths[frames], data.inputs[frames],
+                                    shift)
     errors = ((motions - data.motions[frames]).abs() / policy.motion_scale).mean(dim=2)
     errors = errors + 0.2 * nn.functional.binary_cross_entropy_with_logits(
         opens, data.opens[frames], reduction="none")
@@ -294,7 +320,7 @@ def losses_of(policy, data, frames, shift):
 def train(told, data, path):
     """Trains until the epochs or minutes are used; continues from a checkpoint at `path`."""
     torch.manual_seed(told.seed)
-    policy = VisualPolicy(told.chunk, data.states.shape[1])
+    policy = VisualPolicy(told.chunk, data.states.shape[1], data.rays, data.eye)
     policy.mean.copy_(data.inputs.mean(dim=0))
     policy.scale.copy_(data.inputs.std(dim=0) + 1e-3)
     policy.motion_scale.copy_(data.motions.std(dim=0) + 1e-4)
@@ -358,9 +384,10 @@ def run(env, observation, policy, execute):
         inputs = inputs_of(tool[None], np.array([state["gripper_opening"]]), goal)
         with torch.inference_mode():
             motions, opens, _ = policy(torch.from_numpy(observation["wrist"][None]),
+                                       torch.from_numpy(observation["wrist_depth"][None]),
                                        torch.from_numpy(inputs))
         for motion, opening in zip(motions[0, :execute].double().numpy(),
-                                   torch.tanh(0.5 * opens[0]).double().numpy()):
+                                   torch.sign(opens[0]).double().numpy()):
             pose = np.eye(4)
             pose[:3, :3], pose[:3, 3] = rotation(motion[3:]), motion[:3]
             observation, _, terminated, truncated, info = env.step(action_of(tool @ pose, opening))
