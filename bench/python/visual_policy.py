@@ -8,9 +8,12 @@ beside that of the shipped policy, which sees the simulated state. Before the mo
 told what to act on: the outline of the target in a depth image of the camera "shoulder", as a click
 on a segmenter gives it, from which follow the target's centre, the direction of its face, and the
 position and extent of what protrudes from the face (`goal_of`). During the motion it sees the image
-of the camera "wrist", the gripper's opening and the tool's orientation. All is expressed in the
-tool's frame, and so is the output: a chunk of poses of the tool, as in Chi et al., "Universal
-Manipulation Interface", RSS 2024. Neither inputs nor actions know the simulated pose of the object.
+of the camera "wrist" with depth, the gripper's opening and the tool's orientation. All is expressed
+in the tool's frame: each pixel carries its point there, and each feature of the convolutional
+network becomes the mean of these points, weighted by a softmax (spatial softmax, Levine et al., JMLR
+2016, in three dimensions). The output is a chunk of poses of the tool in the same frame, as in Chi
+et al., "Universal Manipulation Interface", RSS 2024. Neither inputs nor actions know the simulated
+pose of the object.
 
 While recording, the expert is pushed off its way now and then, and the network learns how it
 returns, but not the pushes: without them the network's own errors lead to states that no
@@ -186,7 +189,7 @@ def record(told, folder):
         expert = PushedExpert(told.pushes, [told.seed, block])
         for episode in demonstrations.record(
                 told.skill, count, policy=expert, seed=told.seed + block, progress=False,
-                **cameras_of(told), **({"instances": told.instances} if told.instances else {})):
+                instances=told.instances, **cameras_of(told)):
             points = outlined_points(
                 episode.images["shoulder_depth"][0], episode.images["shoulder_segmentation"][0],
                 episode.legend, np.linalg.inv(episode.base) @ episode.camera_poses["shoulder"][0],
@@ -416,7 +419,7 @@ def main():
     add("--resume", action="store_true", help="continues in a folder that exists")
     add("--skill", default="open_drawer", help="a skill of the Panda")
     add("--demos", type=int, default=200, help="number of demonstrations")
-    add("--instances", type=int, default=None, help="of the objects; default: the skill's")
+    add("--instances", type=int, default=100, help="of the objects")
     add("--image-size", type=int, default=64, help="pixels a side at the wrist; shoulder: 3 times")
     add("--look", choices=["wide"], default=None, help="randomises looks")
     add("--pushes", type=float, default=0.04, help="probability that a push starts at a step")
@@ -424,7 +427,7 @@ def main():
     add("--shift", type=int, default=2, help="of images in training, pixels at most")
     add("--chunk", type=int, default=12, help="actions predicted at once, 0.05 s each")
     add("--execute", type=int, default=8, help="of them that are executed")
-    add("--epochs", type=int, default=25, help="at most")
+    add("--epochs", type=int, default=30, help="at most")
     add("--minutes", type=float, default=60.0, help="of training, at most")
     add("--batch", type=int, default=64, help="frames")
     add("--episodes", type=int, default=100, help="of the measurement")
