@@ -91,7 +91,8 @@ void BindLook(nb::module_& module) {
           "check",
           [](const LookRanges& look) {
             std::string error;
-            if (!look.IsValid(&error)) throw core::Error(error, "look", "docs/cameras.md has the ranges");
+            if (!look.IsValid(&error))
+              throw core::Error(error, "look", "docs/cameras.md has the ranges");
           },
           "Raises Error for a value outside its bounds.")
       .def_rw("object_color", &LookRanges::object_color, "share of objects in a random colour")
