@@ -5,8 +5,9 @@
 #include <cstdio>
 
 #include <tinyxml2.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "assets/principal_inertia.h"
 
 namespace simwright::assets {
 
@@ -168,11 +169,9 @@ void MjcfOption(tinyxml2::XMLPrinter* printer, double time_step) {
 
 void MjcfInertial(tinyxml2::XMLPrinter* printer, const Inertial& inertial) {
   // The principal axes computed by MuJoCo 2.2 itself were off by up to 1e-6 of the inertia.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(inertial.inertia);
-  Eigen::Matrix3d rotation = axes.eigenvectors();
-  if (rotation.determinant() < 0.0) rotation.col(0) *= -1.0;
-  const Eigen::Quaterniond quat(rotation);
-  const Eigen::Vector3d& moments = axes.eigenvalues();
+  const PrincipalInertia principal = PrincipalInertiaOf(inertial.inertia);
+  const Eigen::Quaterniond& quat = principal.link_from_axes;
+  const Eigen::Vector3d& moments = principal.moments;
   Element(printer, "inertial")
       .Set("pos", Numbers(inertial.center_of_mass))
       .Set("quat", Numbers({quat.w(), quat.x(), quat.y(), quat.z()}))

@@ -8,6 +8,7 @@
 #include "cli/findings_output.h"
 #include "cli/usage.h"
 #include "core/error.h"
+#include "workflows/export/asset_export.h"
 #include "workflows/skills/image_recording.h"
 #include "workflows/skills/policy_export.h"
 #include "workflows/skills/skill_export.h"
@@ -26,6 +27,7 @@ const std::map<std::string, ExportFormat> kMotionFormats = {
 const std::map<std::string, PolicyFormat> kPolicyFormats = {
     {"onnx", PolicyFormat::kOnnx}, {"torchscript", PolicyFormat::kTorchScript}};
 
+constexpr char kUsd[] = "usd";
 const std::vector<std::string> kWorldFormats = {"mjcf", "sdf", "drake"};
 // Formats of demonstrations with images; robomimic is one only with --cameras.
 const std::vector<std::string> kImageFormats = {"lerobot", "mcap"};
@@ -107,6 +109,19 @@ int ExportWorld(const ExportFlags& flags, const CommonOptions& common) {
   return 0;
 }
 
+int ExportModel(const ExportFlags& flags, const CommonOptions& common) {
+  const workflows::AssetExportReport report =
+      workflows::ExportAsset({flags.run, flags.output, common.force});
+  if (common.json) {
+    PrintJson(workflows::AssetExportJson(report), report.findings);
+    return 0;
+  }
+  if (!common.quiet) std::fputs(workflows::AssetExportTable(report).c_str(), stdout);
+  PrintFindings(report.findings, common);
+  std::printf("%s\n", (report.output / report.file).c_str());
+  return 0;
+}
+
 int ExportImages(const ExportFlags& flags, const CommonOptions& common) {
   workflows::ImageRecordingRequest request = flags.recording;
   request.run = flags.run;
@@ -126,6 +141,7 @@ int ExportImages(const ExportFlags& flags, const CommonOptions& common) {
 
 int ExportAs(const ExportFlags& flags, const CommonOptions& common) {
   if (flags.world) return ExportWorld(flags, common);
+  if (flags.format == kUsd) return ExportModel(flags, common);
   if (HasImages(flags)) return ExportImages(flags, common);
   return kPolicyFormats.contains(flags.format) ? ExportModels(flags, common)
                                                : ExportMotions(flags, common);
@@ -134,6 +150,7 @@ int ExportAs(const ExportFlags& flags, const CommonOptions& common) {
 // Throws CLI::ParseError for an option that the chosen kind of export does not use.
 void RequireUsedOptions(const CLI::App& command, const ExportFlags& flags) {
   const bool images = HasImages(flags);
+  const bool model = flags.format == kUsd;
   const auto refuse = [&command](std::initializer_list<const char*> options, const char* what) {
     for (const char* option : options) {
       if (command.count(option) > 0) throw CLI::ValidationError(option, what);
@@ -144,6 +161,9 @@ void RequireUsedOptions(const CLI::App& command, const ExportFlags& flags) {
            "needs --format lerobot or mcap, or --cameras");
   } else {
     refuse({"--joint-names", "--pace"}, "is not for demonstrations with images");
+  }
+  if (model) {
+    refuse({"--joint-names", "--pace", "--episodes", "--sampled-start"}, "is not for --format usd");
   }
 }
 
@@ -165,9 +185,10 @@ void RequireExportSource(const ExportFlags& flags) {
   need(policy || world || flags.subtask.empty(), "--subtask", "a policy or --world");
   if (flags.run.empty() && flags.skill.empty()) {
     throw CLI::RequiredError(
-        policy || images ? "a folder written by `simwright train`, or --skill NAME"
-        : world          ? "a folder written by `simwright train`, or a tasks.json with --task NAME"
-                         : "a folder written by `simwright train`");
+        flags.format == kUsd ? "the folder of an asset"
+        : policy || images   ? "a folder written by `simwright train`, or --skill NAME"
+        : world ? "a folder written by `simwright train`, or a tasks.json with --task NAME"
+                : "a folder written by `simwright train`");
   }
 }
 
@@ -212,8 +233,9 @@ void AddRecordingOptions(CLI::App* command, const std::shared_ptr<ExportFlags>& 
 
 void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<ExportFlags>();
-  CLI::App* command = app->add_subcommand(
-      "export", "Export skills as trajectories, demonstrations or networks, and tasks as worlds");
+  CLI::App* command = app->add_subcommand("export",
+                                          "Export skills as trajectories, demonstrations or "
+                                          "networks, tasks as worlds, and assets as USD");
   command->footer(
       "Examples:\n  simwright export open --format ros2 --joint-names fr3 -o open.yaml\n"
       "  simwright export open --format robomimic --episodes 50 -o open.hdf5\n"
@@ -221,14 +243,17 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright export --skill open_drawer --format lerobot --episodes 50 -o drawers\n"
       "  simwright export tasks.json --task open_drawer_unit_1_drawer_1 --world --format mjcf -o "
       "w\n"
+      "  simwright export lib/mug_1 --format usd -o mug_usd\n"
       "Trajectories respect the robot's limits, at 1 kHz from rest to rest. `simwright replay`\n"
       "verifies them. Networks map an observation to an action (docs/export.md). Demonstrations\n"
       "with images (lerobot, mcap, robomimic with --cameras) are written by the Python package\n"
       "(docs/demonstrations.md).");
   CLI::Option* folder =
       command
-          ->add_option("run", flags->run,
-                       "A folder written by `simwright train`; with --world also a tasks.json")
+          ->add_option(
+              "run", flags->run,
+              "A folder written by `simwright train`; with --world also a tasks.json; for usd the "
+              "folder of an asset")
           ->default_str("none");
   command
       ->add_option("--skill", flags->skill,
@@ -246,11 +271,11 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
                     "With --world: a start sampled with --seed as in an evaluation, not the start "
                     "that the task describes");
   AddChoice(command, "--format",
-            {"ros2", "csv", "robomimic", "lerobot", "mcap", "onnx", "torchscript", "mjcf", "sdf",
-             "drake"},
+            {"ros2", "csv", "robomimic", "lerobot", "mcap", "onnx", "torchscript", "usd", "mjcf",
+             "sdf", "drake"},
             "",
             "ros2 (YAML, or JSON by the extension), csv, robomimic, onnx, torchscript; with images "
-            "lerobot, mcap; with --world mjcf, sdf, drake",
+            "lerobot, mcap; of an asset usd; with --world mjcf, sdf, drake",
             [flags](const std::string& name) { flags->format = name; })
       ->required();
   command

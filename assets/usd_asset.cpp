@@ -1,0 +1,150 @@
+#include "assets/usd_asset.h"
+
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "assets/principal_inertia.h"
+#include "assets/usd_joint.h"
+#include "assets/usd_material.h"
+#include "assets/usd_mesh.h"
+#include "assets/usd_prim.h"
+
+namespace simwright::assets {
+namespace {
+
+std::string Numbered(const std::string& stem, size_t number) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "_%03zu", number);
+  return stem + text;
+}
+
+// The root prim of an asset, and what its parts share.
+class AssetPrim {
+ public:
+  AssetPrim(const std::string& name, const physics_params::PhysicalParameters& parameters)
+      : root_("Xform", UsdNames().Unique(name)) {
+    root_.Meta("kind", "\"component\"").Meta("displayName", UsdString(name));
+    Label(parameters.category, "category", &root_);
+  }
+
+  UsdPrim& root() { return root_; }
+  std::string path() const { return "/" + root_.name(); }
+  std::vector<UsdFiles::ImageFile>& images() { return images_; }
+
+  static void Label(const std::string& label, const std::string& taxonomy, UsdPrim* prim) {
+    if (label.empty()) return;
+    prim->Apply("SemanticsLabelsAPI:" + taxonomy)
+        .Set("token[] semantics:labels:" + taxonomy, "[" + UsdString(label) + "]");
+  }
+
+  // Adds the files of images, named after `stem`; equal pictures share a file.
+  std::vector<std::string> Files(const std::vector<core::Image>& pictures,
+                                 const std::string& stem) {
+    std::vector<std::string> files;
+    for (const core::Image& picture : pictures) files.push_back(FileOf(picture, stem));
+    return files;
+  }
+
+  // Adds the visual's materials, and returns their paths.
+  std::vector<std::string> Materials(const core::TexturedMesh& visual, const PbrLook& look,
+                                     const std::string& stem) {
+    const UsdTextureFiles files{Files(visual.textures, stem), Files(look.images, stem + "_map")};
+    std::vector<std::string> paths;
+    for (size_t m = 0; m < visual.materials.size(); ++m) {
+      const core::Material& material = visual.materials[m];
+      const std::string name = names_.Unique(material.name.empty() ? stem : material.name);
+      const PbrMaterial* pbr = m < look.materials.size() ? &look.materials[m] : nullptr;
+      looks_.Add(UsdMaterial(path() + "/looks", name, material, pbr, files));
+      paths.push_back(path() + "/looks/" + name);
+    }
+    return paths;
+  }
+
+  // Adds a material of contacts unless there is an equal one, and returns its path.
+  std::string Contact(const UsdContact& contact) {
+    const auto [at, is_new] = contacts_.try_emplace(contact);
+    if (is_new) {
+      const std::string name = names_.Unique("contact");
+      looks_.Add(UsdPhysicsMaterial(name, contact));
+      at->second = path() + "/looks/" + name;
+    }
+    return at->second;
+  }
+
+  UsdFiles Finish(const std::string& comment) {
+    root_.Add(std::move(looks_));
+    return {UsdLayerText(root_, comment), std::move(images_)};
+  }
+
+ private:
+  std::string FileOf(const core::Image& picture, const std::string& stem) {
+    for (const UsdFiles::ImageFile& known : images_) {
+      if (known.image->width == picture.width && known.image->height == picture.height &&
+          known.image->channels == picture.channels && known.image->pixels == picture.pixels) {
+        return known.path;
+      }
+    }
+    images_.push_back({"./textures/" + Numbered(stem, images_.size()) + ".png", &picture});
+    return images_.back().path;
+  }
+
+  UsdPrim root_, looks_{"Scope", "looks"};
+  UsdNames names_;                              // of looks
+  std::map<UsdContact, std::string> contacts_;  // paths
+  std::vector<UsdFiles::ImageFile> images_;
+};
+
+void SetBody(const Inertial& inertial, UsdPrim* prim) {
+  const PrincipalInertia principal = PrincipalInertiaOf(inertial.inertia);
+  prim->Apply("PhysicsRigidBodyAPI")
+      .Apply("PhysicsMassAPI")
+      .Set("float physics:mass", UsdFloat(inertial.mass))
+      .Set("point3f physics:centerOfMass", UsdFloats(inertial.center_of_mass))
+      .Set("float3 physics:diagonalInertia", UsdFloats(principal.moments))
+      .Set("quatf physics:principalAxes", UsdFloats(principal.link_from_axes));
+}
+
+void AddShapes(const core::TexturedMesh& visual, const std::vector<core::TriangleMesh>& parts,
+               const std::vector<std::string>& materials, const std::string& contact,
+               UsdPrim* prim) {
+  if (!visual.mesh.empty()) prim->Add(UsdVisualMesh("visual", visual, materials));
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].empty()) continue;
+    prim->Add(UsdCollisionMesh(Numbered("collision", i), parts[i], contact));
+  }
+}
+
+}  // namespace
+
+UsdFiles UsdOf(const Asset& asset, const PbrLook& look) {
+  AssetPrim prim(asset.name, asset.parameters);
+  SetBody(asset.inertial, &prim.root());
+  const std::vector<std::string> materials = prim.Materials(asset.visual, look, asset.name);
+  AddShapes(asset.visual, asset.parts, materials,
+            prim.Contact({asset.friction, asset.restitution, asset.rolling_friction}),
+            &prim.root());
+  return prim.Finish("Simwright " SIMWRIGHT_VERSION ": " + asset.name);
+}
+
+UsdFiles UsdOf(const ArticulatedAsset& asset) {
+  AssetPrim prim(asset.name, asset.parameters);
+  prim.root().Apply("PhysicsArticulationRootAPI");
+  UsdTree tree(asset, prim.path());
+  for (size_t i = 0; i < asset.links.size(); ++i) {
+    const ArticulatedLink& link = asset.links[i];
+    UsdPrim body("Xform", tree.LinkName(i));
+    body.Meta("displayName", UsdString(link.name)).Place(tree.RootFromLink(i));
+    SetBody(link.inertial, &body);
+    AssetPrim::Label(link.label, "part", &body);
+    tree.FilterPairs(i, &body);
+    const std::vector<std::string> materials = prim.Materials(link.visual, {}, link.name);
+    AddShapes(link.visual, link.parts, materials,
+              prim.Contact({link.friction, link.restitution, 0.0}), &body);
+    prim.root().Add(std::move(body));
+  }
+  prim.root().Add(tree.Joints());
+  return prim.Finish("Simwright " SIMWRIGHT_VERSION ": " + asset.name);
+}
+
+}  // namespace simwright::assets
