@@ -7,7 +7,8 @@
 #
 # Other options create Python environments from PyPI: --python .venv-python, with what the Python
 # module is built with and its tests run (PyTorch and Stable-Baselines3, 5 GB); --peers .venv-peers
-# with Drake, MuJoCo, PyBullet and yourdfpy (700 MB); --lerobot .venv-lerobot (6 GB), --robomimic
+# with Drake, MuJoCo, PyBullet and yourdfpy (700 MB); --usd .venv-usd with usd-core and Newton
+# (800 MB), which judge exported USD; --lerobot .venv-lerobot (6 GB), --robomimic
 # .venv-robomimic (6 GB) and --mcap .venv-mcap (200 MB), in which the tests of label `peers` load
 # Simwright's files. Options add up. With environments alone, no Debian package is installed.
 set -euo pipefail
@@ -38,9 +39,9 @@ for wanted in "$@"; do
       packages+=("${test_libraries[@]}" clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev)
       ;;
     --bench) packages+=(libqhull-dev libfcl-dev libccd-dev libmeshoptimizer-dev) ;;
-    --python | --peers | --lerobot | --robomimic | --mcap) environments+=("${wanted#--}") ;;
+    --python | --peers | --usd | --lerobot | --robomimic | --mcap) environments+=("${wanted#--}") ;;
     *)
-      echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz, --bench, --python, --peers, --lerobot, --robomimic or --mcap)" >&2
+      echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz, --bench, --python, --peers, --usd, --lerobot, --robomimic or --mcap)" >&2
       exit 2
       ;;
   esac
@@ -78,7 +79,7 @@ create_environment() {
   local requirements folder=.venv-$1 python=${PYTHON:-/usr/bin/python3}
   local options=(--only-binary :all:)
   case $1 in
-    python | peers) requirements=tests/$1/requirements.txt ;;
+    python | peers | usd) requirements=tests/$1/requirements.txt ;;
     *) requirements=tests/python/peers/requirements-$1.txt ;;
   esac
   cmp -s "$requirements" "$folder/requirements.txt" && return 0

@@ -1,0 +1,123 @@
+"""Judges exported USD: usd-core's checker, and Newton, which reads its physics.
+
+    SIMWRIGHT_PROGRAM=build/bin/simwright .venv-usd/bin/python -m pytest tests/usd
+"""
+
+import json
+import os
+import re
+import subprocess
+
+import numpy as np
+import pytest
+
+Usd = pytest.importorskip("pxr.Usd", reason="usd-core is missing (./setup.sh --usd)")
+newton = pytest.importorskip("newton", reason="newton is missing (./setup.sh --usd)")
+from pxr import UsdGeom, UsdPhysics, UsdValidation  # noqa: E402
+
+PROGRAM = os.environ["SIMWRIGHT_PROGRAM"]
+RIGID = ("mug", "apple")
+ARTICULATED = ("microwave", "drawer_unit", "faucet")
+KINDS = RIGID + ARTICULATED
+
+
+def run(*arguments):
+    subprocess.run([PROGRAM, *map(str, arguments), "--quiet"], check=True, stdout=subprocess.DEVNULL)
+
+
+@pytest.fixture(scope="session")
+def exported(tmp_path_factory):
+    """By kind: the asset.json of an asset of the library, and its layer."""
+    folder = tmp_path_factory.mktemp("usd")
+    run("library", "--kind", ",".join(KINDS), "--no-check", "-o", folder / "assets")
+    found = {}
+    for kind in KINDS:
+        asset = folder / "assets" / f"{kind}_1"
+        run("export", asset, "--format", "usd", "-o", folder / kind)
+        found[kind] = json.loads((asset / "asset.json").read_text()), folder / kind / f"{kind}_1.usda"
+    return found
+
+
+def findings(stage):
+    context = UsdValidation.ValidationContext(
+        UsdValidation.ValidationRegistry().GetOrLoadAllValidators())
+    return [f"{error.GetName()}: {error.GetMessage()}" for error in context.Validate(stage)]
+
+
+def model(layer):
+    builder = newton.ModelBuilder()
+    builder.add_usd(str(layer))
+    return builder.finalize(device="cpu")
+
+
+def links(described):
+    return described["links"] if "links" in described else [described]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_checker_finds_nothing(exported, kind):
+    stage = Usd.Stage.Open(str(exported[kind][1]))
+    assert findings(stage) == []
+    assert UsdGeom.GetStageMetersPerUnit(stage) == 1.0
+    assert UsdGeom.GetStageUpAxis(stage) == "Z"
+
+
+def test_the_checker_finds_a_fault(exported, tmp_path):
+    text = exported["mug"][1].read_text()
+    damaged = tmp_path / "damaged.usda"
+    damaged.write_text(re.sub(r'prepend apiSchemas = \["MaterialBindingAPI"\]', "", text))
+    assert findings(Usd.Stage.Open(str(damaged))) != []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_newton_reads_masses_and_inertias(exported, kind):
+    described, layer = exported[kind]
+    read = model(layer)
+    number_of = {label.split("/")[-1]: number for number, label in enumerate(read.body_label)}
+    assert len(number_of) == len(links(described))
+    for one in links(described):
+        number, inertia = number_of[one["name"]], np.array(one["inertia"])
+        np.testing.assert_allclose(read.body_mass.numpy()[number], one["mass"], rtol=1e-6)
+        np.testing.assert_allclose(read.body_com.numpy()[number], one["center_of_mass"], atol=1e-7)
+        np.testing.assert_allclose(read.body_inertia.numpy()[number], inertia,
+                                   atol=2e-6 * np.linalg.norm(inertia))
+
+
+@pytest.mark.parametrize("kind", ARTICULATED)
+def test_newton_reads_joints(exported, kind):
+    described, layer = exported[kind]
+    read = model(layer)
+    moving = [one for one in described["joints"] if one["type"] != "fixed"]
+    free = 0 if described["fixed"] else 6
+    lower, upper = read.joint_limit_lower.numpy()[free:], read.joint_limit_upper.numpy()[free:]
+    # Newton orders joints by the tree, asset.json by its links.
+    np.testing.assert_allclose(sorted(upper), sorted(one["upper"] for one in moving), rtol=1e-6)
+    np.testing.assert_allclose(lower, 0.0, atol=1e-9)
+    for name in ("damping", "friction"):
+        values = (read.joint_target_kd if name == "damping" else read.joint_friction).numpy()[free:]
+        np.testing.assert_allclose(sorted(values), sorted(one[name] for one in moving), rtol=1e-5)
+
+
+@pytest.mark.parametrize("kind", ARTICULATED)
+def test_joints_turn_where_their_frames_say(exported, kind):
+    """Both bodies of a joint state the same frame at position zero."""
+    stage = Usd.Stage.Open(str(exported[kind][1]))
+    cache = UsdGeom.XformCache()
+    joints = [UsdPhysics.Joint(prim) for prim in stage.Traverse() if prim.IsA(UsdPhysics.Joint)]
+    assert joints
+    for joint in joints:
+        frames = []
+        for bodies, position, rotation in (
+                (joint.GetBody0Rel(), joint.GetLocalPos0Attr(), joint.GetLocalRot0Attr()),
+                (joint.GetBody1Rel(), joint.GetLocalPos1Attr(), joint.GetLocalRot1Attr())):
+            pose = np.eye(4)
+            for target in bodies.GetTargets():
+                pose = np.array(cache.GetLocalToWorldTransform(stage.GetPrimAtPath(target))).T
+            q = rotation.Get()
+            w, v = q.GetReal(), np.array(q.GetImaginary())
+            axes = [axis + 2 * w * np.cross(v, axis) + 2 * np.cross(v, np.cross(v, axis))
+                    for axis in np.eye(3)]
+            local = np.eye(4)
+            local[:3, :3], local[:3, 3] = np.array(axes).T, np.array(position.Get())
+            frames.append(pose @ local)
+        np.testing.assert_allclose(frames[0], frames[1], atol=1e-6)
