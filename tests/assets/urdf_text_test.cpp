@@ -199,39 +199,39 @@ std::string WithInertial(const std::string& inertial, bool shape) {
          "</link>";
 }
 
-std::string Inertial(double mass, double ixx, double iyy, double izz) {
+std::string InertialElement(double mass, double ixx, double iyy, double izz) {
   return "<inertial><mass value='" + std::to_string(mass) + "'/><inertia ixx='" +
          std::to_string(ixx) + "' iyy='" + std::to_string(iyy) + "' izz='" + std::to_string(izz) +
          "' ixy='0' ixz='0' iyz='0'/></inertial>";
 }
 
 TEST_F(UrdfText, FramesMayWeighNothing) {
-  const UrdfModel model = Read(WithInertial(Inertial(0, 0, 0, 0), false));
+  const UrdfModel model = Read(WithInertial(InertialElement(0, 0, 0, 0), false));
   EXPECT_FALSE(model.links[0].inertial);
   EXPECT_TRUE(model.findings.empty());
-  const std::string error = ErrorOf(WithInertial(Inertial(0, 0, 0, 0), true));
+  const std::string error = ErrorOf(WithInertial(InertialElement(0, 0, 0, 0), true));
   EXPECT_NE(error.find("'a'"), std::string::npos) << error;
 }
 
 TEST_F(UrdfText, ImpossibleInertiasAreThoseOfABox) {
-  const UrdfModel model = Read(WithInertial(Inertial(3, 0.01, 0.01, 5), true), true);
+  const UrdfModel model = Read(WithInertial(InertialElement(3, 0.01, 0.01, 5), true), true);
   ASSERT_TRUE(model.links[0].inertial);
   EXPECT_EQ(Count(model.findings, "urdf-impossible-inertial"), 1);
   EXPECT_EQ(model.links[0].inertial->mass, 3.0);
   // m (y^2 + z^2) / 12 of 0.1 x 0.2 x 0.4 m.
   EXPECT_NEAR(model.links[0].inertial->inertia(0, 0), 3.0 * (0.04 + 0.16) / 12.0, 1e-12);
   EXPECT_NEAR(model.links[0].inertial->inertia(2, 2), 3.0 * (0.01 + 0.04) / 12.0, 1e-12);
-  const UrdfModel weightless = Read(WithInertial(Inertial(-1, 1, 1, 1), true), true);
+  const UrdfModel weightless = Read(WithInertial(InertialElement(-1, 1, 1, 1), true), true);
   EXPECT_FALSE(weightless.links[0].inertial);
   EXPECT_EQ(Count(weightless.findings, "urdf-impossible-inertial"), 1);
-  EXPECT_NE(ErrorOf(WithInertial(Inertial(3, 0.01, 0.01, 5), true)).find("'a'"), std::string::npos);
+  EXPECT_NE(ErrorOf(WithInertial(InertialElement(3, 0.01, 0.01, 5), true)).find("'a'"), std::string::npos);
 }
 
 TEST_F(UrdfText, InertiaOfALargerBodyIsSaid) {
-  const UrdfModel unit = Read(WithInertial(Inertial(3, 1, 1, 1), true), true);
+  const UrdfModel unit = Read(WithInertial(InertialElement(3, 1, 1, 1), true), true);
   EXPECT_EQ(Count(unit.findings, "urdf-implausible-inertia"), 1);
   const UrdfModel box =
-      Read(WithInertial(Inertial(3, 0.05, 0.0425, 0.0125), true), true);  // its own
+      Read(WithInertial(InertialElement(3, 0.05, 0.0425, 0.0125), true), true);  // its own
   EXPECT_TRUE(box.findings.empty());
 }
 
