@@ -15,7 +15,7 @@
 namespace simwright::workflows {
 namespace {
 
-constexpr const char* kVersion = SIMWRIGHT_VERSION;
+constexpr const char* kThisVersion = SIMWRIGHT_VERSION;
 constexpr double kImportSeconds = 60.0;
 // Exit codes of the check of the package.
 constexpr int kNoPackage = 3, kOtherVersion = 4;
@@ -28,7 +28,7 @@ std::string CheckOfPackage() {
          "import simwright\n"
          "sys.stderr.write(simwright.__version__)\n"
          "sys.exit(0 if simwright.__version__ == '" +
-         kVersion + "' else " + std::to_string(kOtherVersion) + ")\n";
+         kThisVersion + "' else " + std::to_string(kOtherVersion) + ")\n";
 }
 
 std::string LastLine(std::string text) {
@@ -71,7 +71,7 @@ std::string PythonWithPackage() {
   }
   if (outcome.exit_code == kOtherVersion) {
     throw core::Error("has version " + LastLine(outcome.last_error_lines) + " of the package",
-                      python, std::string("this program is version ") + kVersion + "; " + help);
+                      python, std::string("this program is version ") + kThisVersion + "; " + help);
   }
   throw core::Error("cannot import the package simwright: " + LastLine(outcome.last_error_lines),
                     python, help);
