@@ -224,7 +224,8 @@ TEST_F(UrdfText, ImpossibleInertiasAreThoseOfABox) {
   const UrdfModel weightless = Read(WithInertial(InertialElement(-1, 1, 1, 1), true), true);
   EXPECT_FALSE(weightless.links[0].inertial);
   EXPECT_EQ(Count(weightless.findings, "urdf-impossible-inertial"), 1);
-  EXPECT_NE(ErrorOf(WithInertial(InertialElement(3, 0.01, 0.01, 5), true)).find("'a'"), std::string::npos);
+  EXPECT_NE(ErrorOf(WithInertial(InertialElement(3, 0.01, 0.01, 5), true)).find("'a'"),
+            std::string::npos);
 }
 
 TEST_F(UrdfText, InertiaOfALargerBodyIsSaid) {
