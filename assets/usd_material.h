@@ -1,7 +1,7 @@
 #pragma once
 
-#include <compare>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "assets/pbr_look.h"
@@ -28,7 +28,10 @@ struct UsdContact {
   double friction = 0.5, restitution = 0.0;
   double rolling_friction = 0.0;  // m
 
-  auto operator<=>(const UsdContact&) const = default;
+  bool operator<(const UsdContact& other) const {
+    return std::tie(friction, restitution, rolling_friction) <
+           std::tie(other.friction, other.restitution, other.rolling_friction);
+  }
 };
 
 // Returns a material of UsdPhysics, with Newton's rolling friction.
