@@ -8,7 +8,7 @@
 # Other options create Python environments from PyPI: --python .venv-python, with what the Python
 # module is built with and its tests run (PyTorch and Stable-Baselines3, 5 GB); --peers .venv-peers
 # with Drake, MuJoCo, PyBullet and yourdfpy (700 MB); --usd .venv-usd with usd-core and Newton
-# (800 MB), which judge exported USD; --lerobot .venv-lerobot (6 GB), --robomimic
+# (1 GB), which judge exported USD; --lerobot .venv-lerobot (6 GB), --robomimic
 # .venv-robomimic (6 GB) and --mcap .venv-mcap (200 MB), in which the tests of label `peers` load
 # Simwright's files. Options add up. With environments alone, no Debian package is installed.
 set -euo pipefail

@@ -30,7 +30,6 @@ class AssetPrim {
 
   UsdPrim& root() { return root_; }
   std::string path() const { return "/" + root_.name(); }
-  std::vector<UsdFiles::ImageFile>& images() { return images_; }
 
   static void Label(const std::string& label, const std::string& taxonomy, UsdPrim* prim) {
     if (label.empty()) return;

@@ -13,7 +13,7 @@ namespace simwright::assets {
 // A layer of OpenUSD and the images that it refers to.
 struct UsdFiles {
   struct ImageFile {
-    std::string path;                    // relative to the layer: "textures/mug_000.png"
+    std::string path;                    // relative to the layer: "./textures/mug_000.png"
     const core::Image* image = nullptr;  // of the asset or its look, which must outlive this
   };
   std::string text;  // USDA
@@ -28,7 +28,12 @@ struct UsdFiles {
 // An articulated asset has its links side by side, placed at position zero, and joints whose axis
 // is the x axis of their frames. Limits of revolute joints are in degrees. Damping is that of a
 // drive without stiffness whose target velocity is 0. The articulation's root is the asset's prim;
-// a fixed asset has a joint that holds its root link to the world.
+// a fixed asset has a joint that holds its root link to the world. Floating and planar joints,
+// mimic relations, and limits of effort and velocity are left out; a body of mass 0 means to USD
+// that its mass is to be computed.
+//
+// Throw core::Error if a material names an image that is missing, or a joint or an excluded pair a
+// link that is missing.
 UsdFiles UsdOf(const Asset& asset, const PbrLook& look);
 UsdFiles UsdOf(const ArticulatedAsset& asset);
 

@@ -88,9 +88,11 @@ void SetFlatNormals(const core::TriangleMesh& mesh, UsdPrim* prim) {
 }
 
 // Sets a normal per corner: the mean of the faces about the vertex that are turned by less than 40
-// degrees, so that round surfaces look round and edges sharp.
+// degrees, so that round surfaces look round and edges sharp. Vertices of very many faces, the
+// middles of large fans, keep the faces' own normals: every pair of their faces would be compared.
 void SetSmoothNormals(const core::TriangleMesh& mesh, UsdPrim* prim) {
   constexpr double kCosine = 0.766;
+  constexpr size_t kMostFaces = 2048;
   const std::vector<Eigen::Vector3d> areas = AreaVectors(mesh);
   std::vector<Eigen::Vector3d> units = areas;
   for (Eigen::Vector3d& unit : units) unit = Unit(unit);
@@ -104,8 +106,13 @@ void SetSmoothNormals(const core::TriangleMesh& mesh, UsdPrim* prim) {
   normals.reserve(3 * mesh.triangles.size());
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const int vertex : mesh.triangles[t]) {
+      const std::vector<int>& about = faces[static_cast<size_t>(vertex)];
+      if (about.size() > kMostFaces) {
+        normals.push_back(units[t]);
+        continue;
+      }
       Eigen::Vector3d sum = areas[t];
-      for (const int other : faces[static_cast<size_t>(vertex)]) {
+      for (const int other : about) {
         const auto o = static_cast<size_t>(other);
         if (o != t && units[o].dot(units[t]) > kCosine) sum += areas[o];
       }

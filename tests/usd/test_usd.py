@@ -121,3 +121,15 @@ def test_joints_turn_where_their_frames_say(exported, kind):
             local[:3, :3], local[:3, 3] = np.array(axes).T, np.array(position.Get())
             frames.append(pose @ local)
         np.testing.assert_allclose(frames[0], frames[1], atol=1e-6)
+
+
+def test_what_is_no_asset_is_refused_in_one_line(exported, tmp_path):
+    folder = exported["mug"][1].parent
+    for arguments, word in (((tmp_path,), "asset.json"), ((folder,), "asset.json"),
+                            ((folder, "--pace", "recorded"), "--pace")):
+        refused = subprocess.run(
+            [PROGRAM, "export", *map(str, arguments), "--format", "usd", "-o", str(tmp_path / "out")],
+            capture_output=True, text=True)
+        assert refused.returncode != 0 and word in refused.stderr
+        assert len(refused.stderr.splitlines()) == 1
+        assert not (tmp_path / "out").exists()

@@ -53,6 +53,10 @@ void ExportArticulated(const AssetExportRequest& request, AssetExportReport* rep
   for (const assets::ArticulatedLink& link : asset.links) {
     report->shapes += static_cast<int>(link.parts.size());
     report->mass += link.inertial.mass;
+    if (link.inertial.mass > 0.0) continue;
+    report->findings.push_back(
+        {"usd-massless-link", core::Severity::kWarning, link.name,
+         "the link has no mass; readers of USD compute one from its shapes"});
   }
   for (const assets::Joint& joint : asset.joints) {
     report->joints += joint.Moves() ? 1 : 0;
