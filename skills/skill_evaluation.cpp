@@ -32,6 +32,7 @@ void RequireScriptedExpert(const Skill& skill) {
 std::vector<StartState> SampleStarts(const Skill& skill, int count, std::uint64_t seed) {
   std::vector<StartState> starts(static_cast<size_t>(count));
   core::ParallelFor(count, [&](int i) {
+    core::CheckCancelled();  // thousands of starts take as long as their episodes
     core::Rng rng = core::StreamRng(seed, static_cast<std::uint64_t>(i));
     starts[static_cast<size_t>(i)] = SampleStart(skill, rng);
   });

@@ -38,7 +38,7 @@ SkillEvaluation Evaluate(const Skill& skill, const rl::Policy& policy,
 // Evaluates the scripted expert (ExpertAction). Throws core::Error if there is none.
 SkillEvaluation EvaluateScriptedExpert(const Skill& skill, const std::vector<StartState>& starts);
 
-// Samples `count` start states of the skill with `seed`.
+// Samples `count` start states of the skill with `seed`. Throws core::Cancelled.
 std::vector<StartState> SampleStarts(const Skill& skill, int count, std::uint64_t seed);
 
 // Runs one episode to its end.

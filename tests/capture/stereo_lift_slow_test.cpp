@@ -32,7 +32,8 @@ asset_lift::LiftedMesh Lift(const Capture& capture, bool use_stereo) {
   CaptureLiftOptions options;
   options.fit_side = 240;
   options.fit.mesh.steps_per_round = 40;
-  options.texture_size = 512;
+  options.fit.mesh.last_edge_ratio = 0.03;
+  options.texture_size = 256;
   options.start.use_stereo = use_stereo;
   core::Progress silent;
   return LiftCapture(capture, options, &silent);

@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake --install "$build" --prefix "$work/prefix" >/dev/null
 configure() {
-  cmake -S "$source/examples/cpp" -B "$work/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  cmake -S "$source/examples/cpp" -B "$work/$1" -G Ninja -DCMAKE_BUILD_TYPE=Debug \
     -DCMAKE_PREFIX_PATH="$work/prefix" "${@:2}" >/dev/null
 }
 configure assets_alone -DEXAMPLES=read_asset -DCMAKE_DISABLE_FIND_PACKAGE_Torch=ON \

@@ -32,15 +32,16 @@ class Successes(BaseCallback):
         self.rates.append(float(np.mean(self.model.ep_success_buffer)))
 
 
-def test_ppo_learns_to_open_drawers():
-    env = VecEnv("simwright/OpenDrawer-v0", num_envs=64, instances=4, easy_starts=True)
+# Without updates, 0.5 to 0.8 of the episodes with easy starts close the drawer.
+def test_ppo_learns_to_close_drawers():
+    env = VecEnv("simwright/CloseDrawer-v0", num_envs=64, instances=4, easy_starts=True)
     model = sb3.PPO("MlpPolicy", env, n_steps=64, batch_size=512, n_epochs=8, learning_rate=5e-4,
                     gamma=0.98, policy_kwargs=dict(log_std_init=-1.0, net_arch=[128, 128]), seed=1)
     seen = Successes()
-    model.learn(160_000, callback=seen)
+    model.learn(53_248, callback=seen)
     # The first rates count only short, successful episodes; episodes last 160 steps.
-    early, late = np.mean(seen.rates[4:12]), np.mean(seen.rates[-4:])
-    assert late > early + 0.12, (early, late, seen.rates)
+    early, late = np.mean(seen.rates[3:6]), np.mean(seen.rates[-3:])
+    assert late > max(early + 0.12, 0.82), (early, late, seen.rates)
 
 
 def test_terminal_observations():
@@ -64,8 +65,9 @@ def test_ppo_in_one_file_learns():
     sys.path.insert(0, str(SOURCE / "examples" / "python"))
     import ppo
 
-    flags = ppo.arguments().parse_args(["--instances", "4", "--steps", "200000"])
+    flags = ppo.arguments().parse_args(["--env", "simwright/CloseDrawer-v0", "--instances", "4",
+                                        "--steps", "53248"])
     agent, rates = ppo.train(flags, report=lambda line: None)
-    early, late = np.mean(rates[2:12]), np.mean(rates[-10:])
-    assert late > early + 0.1, (early, late, rates)
+    early, late = np.mean(rates[2:6]), np.mean(rates[-3:])
+    assert late > max(early + 0.12, 0.82), (early, late, rates)
     assert all(bool(parameter.isfinite().all()) for parameter in agent.parameters())
