@@ -9,6 +9,7 @@
 #include "assets/usd_material.h"
 #include "assets/usd_mesh.h"
 #include "assets/usd_prim.h"
+#include "core/files.h"
 
 namespace simwright::assets {
 namespace {
@@ -144,6 +145,14 @@ UsdFiles UsdOf(const ArticulatedAsset& asset) {
   }
   prim.root().Add(tree.Joints());
   return prim.Finish("Simwright " SIMWRIGHT_VERSION ": " + asset.name);
+}
+
+void WriteUsd(const UsdFiles& files, const std::filesystem::path& folder, const std::string& file) {
+  core::WriteFile(folder / file, files.text);
+  for (const UsdFiles::ImageFile& image : files.images) {
+    std::filesystem::create_directories((folder / image.path).parent_path());
+    core::WritePng(folder / image.path, *image.image);
+  }
 }
 
 }  // namespace simwright::assets

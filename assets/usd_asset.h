@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -28,13 +29,18 @@ struct UsdFiles {
 // An articulated asset has its links side by side, placed at position zero, and joints whose axis
 // is the x axis of their frames. Limits of revolute joints are in degrees. Damping is that of a
 // drive without stiffness whose target velocity is 0. The articulation's root is the asset's prim;
-// a fixed asset has a joint that holds its root link to the world. Floating and planar joints,
-// mimic relations, and limits of effort and velocity are left out; a body of mass 0 means to USD
-// that its mass is to be computed.
+// a fixed asset has a joint that holds its root link to the world. Limits of velocity, friction of
+// joints and joints that follow others of their kind (HasUsdMimic) use Newton's schemas. Floating
+// and planar joints, other mimic relations, and limits of effort are left out; a body of mass 0
+// means to USD that its mass is to be computed.
 //
 // Throw core::Error if a material names an image that is missing, or a joint or an excluded pair a
 // link that is missing.
 UsdFiles UsdOf(const Asset& asset, const PbrLook& look);
 UsdFiles UsdOf(const ArticulatedAsset& asset);
+
+// Writes the layer as `file` into an existing folder, and its images beside it. Throws core::Error
+// if it cannot.
+void WriteUsd(const UsdFiles& files, const std::filesystem::path& folder, const std::string& file);
 
 }  // namespace simwright::assets

@@ -1,5 +1,6 @@
 #include "assets/usd_joint.h"
 
+#include <algorithm>
 #include <numbers>
 #include <utility>
 
@@ -54,15 +55,28 @@ void SetMotion(const Joint& joint, UsdPrim* prim) {
   prim->Set("float " + drive + "damping", UsdFloat(joint.damping / unit));
   prim->Set("float " + drive + "stiffness", "0");
   prim->Set("float " + drive + "targetVelocity", "0");
+  // UsdPhysics has neither friction nor limits of velocity: those of Newton and MuJoCo.
+  if (joint.friction > 0.0 || joint.velocity > 0.0) prim->Apply("NewtonJointAPI");
+  if (joint.velocity > 0.0) {
+    prim->Set("float newton:velocityLimit", UsdFloat(unit * joint.velocity));
+  }
   if (joint.friction > 0.0) {
-    // UsdPhysics has no friction of joints: those of Newton and MuJoCo.
-    prim->Apply("NewtonJointAPI").Apply("MjcJointAPI");
+    prim->Apply("MjcJointAPI");
     prim->Set("float newton:friction", UsdFloat(joint.friction));
     prim->Set("uniform double mjc:frictionloss", UsdDouble(joint.friction));
   }
 }
 
 }  // namespace
+
+bool HasUsdMimic(const ArticulatedAsset& asset, const Joint& joint) {
+  if (!joint.mimic.has_value()) return false;
+  const auto leader = std::find_if(asset.joints.begin(), asset.joints.end(),
+                                   [&](const Joint& j) { return j.name == joint.mimic->joint; });
+  if (leader == asset.joints.end()) return false;
+  const auto slides = [](const Joint& j) { return j.type == JointType::kPrismatic; };
+  return (Turns(joint.type) && Turns(leader->type)) || (slides(joint) && slides(*leader));
+}
 
 UsdTree::UsdTree(const ArticulatedAsset& asset, std::string root)
     : asset_(asset), root_(std::move(root)) {
@@ -98,6 +112,18 @@ void UsdTree::FilterPairs(size_t link, UsdPrim* prim) const {
   prim->Apply("PhysicsFilteredPairsAPI").Set("rel physics:filteredPairs", "[" + others + "]");
 }
 
+void UsdTree::SetMimic(const Joint& joint, const std::vector<std::string>& names,
+                       UsdPrim* prim) const {
+  for (size_t j = 0; j < asset_.joints.size(); ++j) {
+    if (asset_.joints[j].name != joint.mimic->joint) continue;
+    const double unit = Turns(joint.type) ? kDegrees : 1.0;
+    prim->Apply("NewtonMimicAPI")
+        .Set("rel newton:mimicJoint", "<" + root_ + "/joints/" + names[j] + ">")
+        .Set("float newton:mimicCoef0", UsdFloat(unit * joint.mimic->offset))
+        .Set("float newton:mimicCoef1", UsdFloat(joint.mimic->multiplier));
+  }
+}
+
 UsdPrim UsdTree::Joints() const {
   UsdPrim scope("Scope", "joints");
   UsdNames unique;
@@ -107,11 +133,13 @@ UsdPrim UsdTree::Joints() const {
     SetFrame(LinkPath(0), Eigen::Isometry3d::Identity(), 1, &held);
     scope.Add(std::move(held));
   }
+  std::vector<std::string> names;
+  for (const Joint& joint : asset_.joints) names.push_back(unique.Unique(joint.name));
   for (size_t j = 0; j < asset_.joints.size(); ++j) {
     const Joint& joint = asset_.joints[j];
     const char* type = PrimType(joint.type);
     if (type == nullptr) continue;
-    UsdPrim prim(type, unique.Unique(joint.name));
+    UsdPrim prim(type, names[j]);
     prim.Meta("displayName", UsdString(joint.name));
     // The joint's x axis lies along its axis of motion.
     Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
@@ -123,6 +151,7 @@ UsdPrim UsdTree::Joints() const {
              &prim);
     SetFrame(LinkPath(j + 1), turn, 1, &prim);
     if (joint.Moves()) SetMotion(joint, &prim);
+    if (HasUsdMimic(asset_, joint)) SetMimic(joint, names, &prim);
     scope.Add(std::move(prim));
   }
   return scope;

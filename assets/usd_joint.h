@@ -10,6 +10,9 @@
 
 namespace simwright::assets {
 
+// Returns true if the joint follows one of its own kind, which NewtonMimicAPI expresses.
+bool HasUsdMimic(const ArticulatedAsset& asset, const Joint& joint);
+
 // The tree of an articulated asset's links as prims of UsdPhysics.
 class UsdTree {
  public:
@@ -27,6 +30,8 @@ class UsdTree {
   UsdPrim Joints() const;
 
  private:
+  // Makes a joint follow its leader; `names`: of the joints' prims.
+  void SetMimic(const Joint& joint, const std::vector<std::string>& names, UsdPrim* prim) const;
   size_t LinkNamed(const std::string& name, const std::string& joint) const;
   std::string LinkPath(size_t link) const { return root_ + "/" + names_[link]; }
 

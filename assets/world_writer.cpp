@@ -14,10 +14,6 @@
 namespace simwright::assets {
 namespace {
 
-constexpr char kGround[] = "ground";
-// The friction of most floors. Drake combines two frictions as 2 a b / (a + b), Gazebo takes the
-// smaller.
-constexpr double kGroundFriction = 0.8;
 // The step in s. At the 2 ms of a single asset, contacts with a time constant of 5 ms oscillate in
 // stacks of four or five, whose upper objects creep by millimetres per second; at 1 ms no object
 // moves by more than 0.1 mm.
@@ -25,23 +21,6 @@ constexpr double kMjcfStep = 1e-3;
 
 void RequireName(const std::string& name) {
   if (FileSafeName(name) != name) throw core::Error("this is not a valid file name", name);
-}
-
-// Returns the assets of the objects, each once, by key.
-std::map<std::string, const WorldAsset*> AssetsOf(const std::vector<WorldObject>& objects) {
-  std::map<std::string, const WorldAsset*> assets;
-  std::set<std::string> names = {kGround};
-  for (const WorldObject& object : objects) {
-    RequireName(object.name);
-    RequireName(object.asset->key);
-    if (!names.insert(object.name).second) {
-      throw core::Error("two objects of a world have the same name", object.name);
-    }
-    if (assets.emplace(object.asset->key, object.asset).first->second != object.asset) {
-      throw core::Error("two assets of a world have the same key", object.asset->key);
-    }
-  }
-  return assets;
 }
 
 // Writes <size>. MuJoCo 2.2 reserves contacts and constraint rows, six per contact, in advance, and
@@ -111,10 +90,10 @@ void SdfSun(tinyxml2::XMLPrinter* printer) {
 // hydroelastic contact.
 void SdfGround(tinyxml2::XMLPrinter* printer) {
   Element model(printer, "model");
-  model.Set("name", kGround);
+  model.Set("name", kWorldGround);
   Leaf(printer, "static", "true");
   Element link(printer, "link");
-  link.Set("name", kGround);
+  link.Set("name", kWorldGround);
   for (const char* const role : {"collision", "visual"}) {
     Element owner(printer, role);
     owner.Set("name", role);
@@ -130,12 +109,28 @@ void SdfGround(tinyxml2::XMLPrinter* printer) {
       Element(printer, "drake:rigid_hydroelastic");
       Leaf(printer, "drake:mesh_resolution_hint", "1");
     }
-    SdfSurface(printer, kGroundFriction);
+    SdfSurface(printer, kWorldGroundFriction);
   }
 }
 
+std::map<std::string, const WorldAsset*> WorldAssetsOf(const std::vector<WorldObject>& objects) {
+  std::map<std::string, const WorldAsset*> assets;
+  std::set<std::string> names = {kWorldGround};
+  for (const WorldObject& object : objects) {
+    RequireName(object.name);
+    RequireName(object.asset->key);
+    if (!names.insert(object.name).second) {
+      throw core::Error("two objects of a world have the same name", object.name);
+    }
+    if (assets.emplace(object.asset->key, object.asset).first->second != object.asset) {
+      throw core::Error("two assets of a world have the same key", object.asset->key);
+    }
+  }
+  return assets;
+}
+
 std::string WorldMjcf(const std::string& name, const std::vector<WorldObject>& objects) {
-  const std::map<std::string, const WorldAsset*> assets = AssetsOf(objects);
+  const std::map<std::string, const WorldAsset*> assets = WorldAssetsOf(objects);
   tinyxml2::XMLPrinter printer;
   {
     Element mujoco(&printer, "mujoco");
@@ -152,7 +147,7 @@ std::string WorldMjcf(const std::string& name, const std::vector<WorldObject>& o
     Element worldbody(&printer, "worldbody");
     // MuJoCo uses the greater friction of two, so the objects' own applies.
     Element(&printer, "geom")
-        .Set("name", kGround)
+        .Set("name", kWorldGround)
         .Set("type", "plane")
         .Set("size", "0 0 1")
         .Set("condim", "6")
@@ -167,7 +162,7 @@ std::string WorldMjcf(const std::string& name, const std::vector<WorldObject>& o
 
 std::string WorldSdf(const std::string& name, const std::vector<WorldObject>& objects,
                      SdfReader reader) {
-  AssetsOf(objects);
+  WorldAssetsOf(objects);
   tinyxml2::XMLPrinter printer;
   printer.PushHeader(false, true);
   {

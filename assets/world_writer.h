@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,15 @@ struct WorldObject {
   Eigen::Isometry3d world_from_object = Eigen::Isometry3d::Identity();
   bool welded = false;  // part of the world, like furniture
 };
+
+// The floor's name and its friction, which is that of most floors. Drake combines two frictions as
+// 2 a b / (a + b), Gazebo takes the smaller.
+constexpr char kWorldGround[] = "ground";
+constexpr double kWorldGroundFriction = 0.8;
+
+// Returns the assets of the objects, each once, by key. Throws core::Error if two objects share a
+// name, or have the floor's, two assets a key, or a name is not a valid file name.
+std::map<std::string, const WorldAsset*> WorldAssetsOf(const std::vector<WorldObject>& objects);
 
 // Returns the world as one file, over the floor z = 0, with the numbers of the assets' own files
 // (17 digits) and their options. `name` is the world's. Throws core::Error if two objects share a

@@ -67,7 +67,7 @@ void AddSceneExport(CLI::App* scene, CommonOptions* common, Run* run) {
       ->excludes(scenes);
   command
       ->add_option("--format", *formats,
-                   "urdf, sdf, mjcf, drake or all; several separated by commas")
+                   "urdf, sdf, mjcf, drake, usd or all; several separated by commas")
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("-o,--output", request->output, "The folder for the world files")->required();

@@ -222,7 +222,7 @@ def export(dataset: Path, output: Path, scenes: str = "",
         dataset (path): a folder of shards, or one shard.
         output (path): one folder per scene, and the assets beside them.
         scenes (str): such as "0,3-5"; empty: all.
-        formats (list of str): of urdf, sdf, mjcf, drake.
+        formats (list of str): of urdf, sdf, mjcf, drake, usd.
         check (bool): checks each scene's stability in Bullet and MuJoCo.
         force (bool): replaces an existing output.
         progress: see ``simwright``.

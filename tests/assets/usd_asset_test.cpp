@@ -1,61 +1,22 @@
 #include "assets/usd_asset.h"
 
-#include <cstdlib>
 #include <numbers>
-#include <regex>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "assets/usd_joint.h"
 #include "assets/usd_material.h"
 #include "assets/usd_prim.h"
 #include "core/error.h"
 #include "tests/assets/sample_articulated.h"
 #include "tests/assets/sample_asset.h"
+#include "tests/assets/usd_text.h"
 
 namespace simwright::assets {
 namespace {
-
-// Returns the text of the prim `name`, without its own name, up to its closing brace.
-std::string PrimText(const std::string& text, const std::string& name) {
-  const size_t begin = text.find(" \"" + name + "\"");
-  if (begin == std::string::npos) return "";
-  const size_t line = text.rfind('\n', begin) + 1;
-  const std::string indent(text.find_first_not_of(' ', line) - line, ' ');
-  return text.substr(begin, text.find("\n" + indent + "}\n", begin) - begin);
-}
-
-// Returns the numbers of a property's value: those of the first line that has `property`.
-std::vector<double> NumbersOf(const std::string& text, const std::string& property) {
-  const size_t begin = text.find(property + " = ");
-  if (begin == std::string::npos) return {};
-  const std::string line = text.substr(begin + property.size() + 3,
-                                       text.find('\n', begin) - begin - property.size() - 3);
-  const std::regex number("[-+]?[0-9][-+.e0-9]*");
-  std::vector<double> numbers;
-  for (std::sregex_iterator it(line.begin(), line.end(), number), end; it != end; ++it) {
-    numbers.push_back(std::strtod(it->str().c_str(), nullptr));
-  }
-  return numbers;
-}
-
-Eigen::Vector3d VectorOf(const std::string& text, const std::string& property) {
-  const std::vector<double> n = NumbersOf(text, property);
-  return n.size() == 3 ? Eigen::Vector3d(n[0], n[1], n[2]) : Eigen::Vector3d::Constant(NAN);
-}
-
-Eigen::Quaterniond RotationOf(const std::string& text, const std::string& property) {
-  const std::vector<double> n = NumbersOf(text, property);
-  return n.size() == 4 ? Eigen::Quaterniond(n[0], n[1], n[2], n[3])
-                       : Eigen::Quaterniond(NAN, NAN, NAN, NAN);
-}
-
-double NumberOf(const std::string& text, const std::string& property) {
-  const std::vector<double> n = NumbersOf(text, property);
-  return n.size() == 1 ? n[0] : NAN;
-}
 
 void ExpectInertial(const std::string& prim, const Inertial& inertial) {
   EXPECT_NEAR(NumberOf(prim, "physics:mass"), inertial.mass, 1e-7 * inertial.mass);
@@ -141,6 +102,27 @@ TEST(UsdAssetText, AHingeTurnsAboutItsAxisBetweenItsLimits) {
   // The handle's pose in the asset: that of the door, and then its own.
   EXPECT_TRUE(VectorOf(PrimText(text, "handle_0"), "xformOp:translate")
                   .isApprox(Eigen::Vector3d(-0.153, -0.17, 0.25), 1e-12));
+}
+
+// Newton's schemas state in degrees what a joint has in radians.
+TEST(UsdAssetText, JointsHaveLimitsOfVelocityAndFollowOthersOfTheirKind) {
+  ArticulatedAsset asset = SampleArticulated();
+  const std::string hinge = PrimText(UsdOf(asset).text, "door_joint");
+  EXPECT_NEAR(NumberOf(hinge, "newton:velocityLimit"), 5.0 * 180.0 / std::numbers::pi, 1e-5);
+  EXPECT_EQ(hinge.find("NewtonMimicAPI"), std::string::npos);
+  Joint& handle = asset.joints[1];
+  handle.type = JointType::kContinuous;
+  handle.mimic = {"door_joint", -2.0, 0.25};
+  EXPECT_TRUE(HasUsdMimic(asset, handle));
+  const std::string follower = PrimText(UsdOf(asset).text, "handle_0_joint");
+  EXPECT_NE(follower.find("NewtonMimicAPI"), std::string::npos);
+  EXPECT_NE(follower.find("newton:mimicJoint = </sample_chest/joints/door_joint>"),
+            std::string::npos);
+  EXPECT_EQ(NumberOf(follower, "newton:mimicCoef1"), -2.0);
+  EXPECT_NEAR(NumberOf(follower, "newton:mimicCoef0"), 0.25 * 180.0 / std::numbers::pi, 1e-6);
+  handle.type = JointType::kPrismatic;  // its leader turns
+  EXPECT_FALSE(HasUsdMimic(asset, handle));
+  EXPECT_EQ(UsdOf(asset).text.find("NewtonMimicAPI"), std::string::npos);
 }
 
 TEST(UsdAssetText, AFixedAssetIsHeldAndExcludedPairsAreFiltered) {

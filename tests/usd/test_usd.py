@@ -1,53 +1,14 @@
-"""Judges exported USD: usd-core's checker, and Newton, which reads its physics.
-
-    SIMWRIGHT_PROGRAM=build/bin/simwright .venv-usd/bin/python -m pytest tests/usd
-"""
+"""Judges exported assets: usd-core's checker, and Newton, which reads their physics."""
 
 import json
-import os
 import re
 import subprocess
 
 import numpy as np
 import pytest
 
-Usd = pytest.importorskip("pxr.Usd", reason="usd-core is missing (./setup.sh --usd)")
-newton = pytest.importorskip("newton", reason="newton is missing (./setup.sh --usd)")
-from pxr import UsdGeom, UsdPhysics, UsdValidation  # noqa: E402
-
-PROGRAM = os.environ["SIMWRIGHT_PROGRAM"]
-RIGID = ("mug", "apple")
-ARTICULATED = ("microwave", "drawer_unit", "faucet")
-KINDS = RIGID + ARTICULATED
-
-
-def run(*arguments):
-    subprocess.run([PROGRAM, *map(str, arguments), "--quiet"], check=True, stdout=subprocess.DEVNULL)
-
-
-@pytest.fixture(scope="session")
-def exported(tmp_path_factory):
-    """By kind: the asset.json of an asset of the library, and its layer."""
-    folder = tmp_path_factory.mktemp("usd")
-    run("library", "--kind", ",".join(KINDS), "--no-check", "-o", folder / "assets")
-    found = {}
-    for kind in KINDS:
-        asset = folder / "assets" / f"{kind}_1"
-        run("export", asset, "--format", "usd", "-o", folder / kind)
-        found[kind] = json.loads((asset / "asset.json").read_text()), folder / kind / f"{kind}_1.usda"
-    return found
-
-
-def findings(stage):
-    context = UsdValidation.ValidationContext(
-        UsdValidation.ValidationRegistry().GetOrLoadAllValidators())
-    return [f"{error.GetName()}: {error.GetMessage()}" for error in context.Validate(stage)]
-
-
-def model(layer):
-    builder = newton.ModelBuilder()
-    builder.add_usd(str(layer))
-    return builder.finalize(device="cpu")
+from judges import ARTICULATED, KINDS, PROGRAM, findings, newton_model
+from pxr import Usd, UsdGeom, UsdPhysics
 
 
 def links(described):
@@ -72,7 +33,7 @@ def test_the_checker_finds_a_fault(exported, tmp_path):
 @pytest.mark.parametrize("kind", KINDS)
 def test_newton_reads_masses_and_inertias(exported, kind):
     described, layer = exported[kind]
-    read = model(layer)
+    read = newton_model(layer)
     number_of = {label.split("/")[-1]: number for number, label in enumerate(read.body_label)}
     assert len(number_of) == len(links(described))
     for one in links(described):
@@ -86,7 +47,7 @@ def test_newton_reads_masses_and_inertias(exported, kind):
 @pytest.mark.parametrize("kind", ARTICULATED)
 def test_newton_reads_joints(exported, kind):
     described, layer = exported[kind]
-    read = model(layer)
+    read = newton_model(layer)
     moving = [one for one in described["joints"] if one["type"] != "fixed"]
     free = 0 if described["fixed"] else 6
     lower, upper = read.joint_limit_lower.numpy()[free:], read.joint_limit_upper.numpy()[free:]

@@ -136,7 +136,7 @@ void SceneExport::IsSelfContained() {
   ExportScenes(request, &silent);
   fs::rename(At("before"), At("moved"));
   for (const char* const name :
-       {"scene.json", "world.sdf", "gazebo.sdf", "scene.xml", "scene.dmd.yaml"}) {
+       {"scene.json", "world.sdf", "gazebo.sdf", "scene.xml", "scene.dmd.yaml", "scene.usda"}) {
     EXPECT_TRUE(fs::exists(At("moved/scene_00001/") + name)) << name;
     const std::string text = core::ReadFile(At("moved/scene_00001/") + name);
     EXPECT_EQ(text.find(folder_->path().string()), std::string::npos) << name;
@@ -151,6 +151,8 @@ void SceneExport::IsSelfContained() {
         assets::ReadAsset(At("dataset/assets/" + object["slot"].get<std::string>()));
     EXPECT_NEAR(model.links[0].inertial->mass, asset.inertial.mass, 1e-12);
     EXPECT_EQ(model.links[0].collisions.size(), asset.parts.size());
+    const std::string slot = object["slot"];
+    EXPECT_TRUE(fs::exists(At("moved/assets/" + slot) + "/" + slot + ".usda")) << slot;
   }
   const std::vector<scene::SceneObject> objects =
       SceneAt(scene::SceneDataset(fs::path(At("dataset"))), 1);
@@ -176,8 +178,8 @@ void SceneExport::RefusesWhatIsNone() {
   request.count = 4;
   EXPECT_NE(ErrorOf(request).find("3 scenes"), std::string::npos);
   request = Request("refused");
-  request.formats = {"usd"};
-  EXPECT_NE(ErrorOf(request).find("usd"), std::string::npos);
+  request.formats = {"stl"};
+  EXPECT_NE(ErrorOf(request).find("stl"), std::string::npos);
   request = Request("refused");
   request.assets = At("nowhere");
   EXPECT_NE(ErrorOf(request).find("no folder of assets"), std::string::npos);

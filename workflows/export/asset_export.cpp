@@ -5,6 +5,7 @@
 #include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
 #include "assets/usd_asset.h"
+#include "assets/usd_joint.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
@@ -18,11 +19,7 @@ void Write(const assets::UsdFiles& files, const std::string& name,
   core::StagedFolder staged(request.output, request.force);
   report->file = name + ".usda";
   report->textures = static_cast<int>(files.images.size());
-  core::WriteFile(staged.staging() / report->file, files.text);
-  if (!files.images.empty()) fs::create_directory(staged.staging() / "textures");
-  for (const assets::UsdFiles::ImageFile& image : files.images) {
-    core::WritePng(staged.staging() / image.path, *image.image);
-  }
+  assets::WriteUsd(files, staged.staging(), report->file);
   staged.Commit();
 }
 
@@ -36,14 +33,20 @@ void ExportRigid(const AssetExportRequest& request, AssetExportReport* report) {
 }
 
 // Says which motions of a joint UsdPhysics does not express.
-void CheckJoint(const assets::Joint& joint, core::Findings* findings) {
+void CheckJoint(const assets::ArticulatedAsset& asset, const assets::Joint& joint,
+                core::Findings* findings) {
   if (joint.type == assets::JointType::kFloating || joint.type == assets::JointType::kPlanar) {
     findings->push_back({"usd-joint-left-out", core::Severity::kWarning, joint.name,
                          "UsdPhysics has no planar or floating joints; the link moves freely"});
   }
-  if (joint.mimic.has_value()) {
+  if (!joint.mimic.has_value()) return;
+  if (assets::HasUsdMimic(asset, joint)) {
+    findings->push_back({"usd-mimic-of-newton", core::Severity::kInfo, joint.name,
+                         "follows a joint by Newton's schema; UsdPhysics has none, so Isaac Sim "
+                         "moves it by itself"});
+  } else {
     findings->push_back({"usd-mimic-left-out", core::Severity::kWarning, joint.name,
-                         "UsdPhysics has no joints that follow others; it moves by itself"});
+                         "no schema lets it follow a joint of another kind; it moves by itself"});
   }
 }
 
@@ -60,7 +63,7 @@ void ExportArticulated(const AssetExportRequest& request, AssetExportReport* rep
   }
   for (const assets::Joint& joint : asset.joints) {
     report->joints += joint.Moves() ? 1 : 0;
-    CheckJoint(joint, &report->findings);
+    CheckJoint(asset, joint, &report->findings);
   }
   Write(assets::UsdOf(asset), asset.name, request, report);
 }

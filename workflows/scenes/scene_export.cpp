@@ -4,6 +4,8 @@
 #include <cstdio>
 
 #include "assets/asset_folder.h"
+#include "assets/usd_asset.h"
+#include "assets/usd_world.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
@@ -28,7 +30,8 @@ std::set<std::string> FormatsOf(const SceneExportRequest& request) {
   if (formats.erase("all") > 0) formats.insert(known.begin(), known.end());
   for (const std::string& format : formats) {
     if (std::find(known.begin(), known.end(), format) == known.end()) {
-      throw core::Error("there is no such world format", format, "urdf, sdf, mjcf, drake, all");
+      throw core::Error("there is no such world format", format,
+                        "urdf, sdf, mjcf, drake, usd, all");
     }
   }
   if (formats.empty()) throw core::Error("no format is given", "--format");
@@ -84,6 +87,7 @@ class Export {
     for (const auto& [category, from] : folders_) {
       core::CheckCancelled();
       fs::copy(from, folder / "assets" / category, fs::copy_options::recursive);
+      if (formats_.count("usd") > 0) WriteAssetUsd(category, folder / "assets" / category);
     }
     if (formats_.count("drake") > 0) {
       core::WriteFile(folder / "package.xml", scene::PackageXml(package_));
@@ -119,6 +123,13 @@ class Export {
   }
 
  private:
+  // Writes the layer that the scenes refer to.
+  void WriteAssetUsd(const std::string& category, const fs::path& folder) const {
+    const assets::Asset& asset = assets_.at(category).asset;
+    const assets::PbrLook look = assets::ReadPbrLook(folder);
+    assets::WriteUsd(assets::UsdOf(asset, look), folder, category + ".usda");
+  }
+
   void WriteScene(size_t index, const fs::path& folder) const {
     scene::ExportedScene exported;
     exported.name = FolderName(scenes_[index]);
@@ -138,6 +149,9 @@ class Export {
     if (formats_.count("drake") > 0) {
       core::WriteFile(folder / "scene.dmd.yaml", DrakeDirectives(exported, package_));
     }
+    if (formats_.count("usd") > 0) {
+      core::WriteFile(folder / "scene.usda", WorldUsd(exported.name, exported.objects));
+    }
   }
 
   std::set<std::string> formats_;
@@ -154,7 +168,7 @@ class Export {
 }  // namespace
 
 const std::vector<std::string>& SceneFormats() {
-  static const std::vector<std::string> formats = {"urdf", "sdf", "mjcf", "drake"};
+  static const std::vector<std::string> formats = {"urdf", "sdf", "mjcf", "drake", "usd"};
   return formats;
 }
 

@@ -33,7 +33,7 @@ struct SceneExportReport {
   double StableFraction() const;
 };
 
-// Returns the names of the formats: urdf, sdf, mjcf, drake.
+// Returns the names of the formats: urdf, sdf, mjcf, drake, usd.
 const std::vector<std::string>& SceneFormats();
 
 // Writes scenes as world files (docs/formats.md): one folder per scene, and each category's asset
