@@ -66,8 +66,12 @@ std::string TreeJointName(const TreeBody& body, int joint);
 // all three equal to their mean, which is MuJoCo's `balanceinertia`.
 Inertial TreeInertial(const Inertial& inertial);
 
-// Return the bodies as one world over the floor z = 0. Numbers have 17 digits. Throw core::Error if
-// two bodies, links, joints or shapes would share a name, or for more than 28 bodies.
+// Throws core::Error if two bodies, links, joints or shapes would share a name, or for more than 28
+// bodies.
+void RequireTreeNames(const std::vector<TreeBody>& bodies);
+
+// Return the bodies as one world over the floor z = 0. Numbers have 17 digits. Throw as
+// RequireTreeNames does.
 //
 // MJCF: the keyframe "start" has the positions and targets of the start; bodies collide with each
 // other and the floor, links of one body do not collide. MuJoCo takes the greater of two frictions,

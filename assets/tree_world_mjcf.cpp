@@ -218,6 +218,8 @@ class TreeMjcf {
   std::string positions_, targets_;
 };
 
+}  // namespace
+
 void RequireTreeNames(const std::vector<TreeBody>& bodies) {
   if (bodies.size() > kMostTreeBodies) {
     throw core::Error("a world has at most " + std::to_string(kMostTreeBodies) + " bodies",
@@ -241,8 +243,6 @@ void RequireTreeNames(const std::vector<TreeBody>& bodies) {
     }
   }
 }
-
-}  // namespace
 
 Inertial TreeInertial(const Inertial& inertial) {
   const Eigen::Vector3d moments =

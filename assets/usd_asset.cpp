@@ -4,11 +4,11 @@
 #include <map>
 #include <utility>
 
-#include "assets/principal_inertia.h"
-#include "assets/usd_joint.h"
+#include "assets/usd_body.h"
 #include "assets/usd_material.h"
 #include "assets/usd_mesh.h"
 #include "assets/usd_prim.h"
+#include "assets/usd_tree.h"
 #include "core/files.h"
 
 namespace simwright::assets {
@@ -95,16 +95,6 @@ class AssetPrim {
   std::vector<UsdFiles::ImageFile> images_;
 };
 
-void SetBody(const Inertial& inertial, UsdPrim* prim) {
-  const PrincipalInertia principal = PrincipalInertiaOf(inertial.inertia);
-  prim->Apply("PhysicsRigidBodyAPI")
-      .Apply("PhysicsMassAPI")
-      .Set("float physics:mass", UsdFloat(inertial.mass))
-      .Set("point3f physics:centerOfMass", UsdFloats(inertial.center_of_mass))
-      .Set("float3 physics:diagonalInertia", UsdFloats(principal.moments))
-      .Set("quatf physics:principalAxes", UsdFloats(principal.link_from_axes));
-}
-
 void AddShapes(const core::TexturedMesh& visual, const std::vector<core::TriangleMesh>& parts,
                const std::vector<std::string>& materials, const std::string& contact,
                UsdPrim* prim) {
@@ -119,7 +109,7 @@ void AddShapes(const core::TexturedMesh& visual, const std::vector<core::Triangl
 
 UsdFiles UsdOf(const Asset& asset, const PbrLook& look) {
   AssetPrim prim(asset.name, asset.parameters);
-  SetBody(asset.inertial, &prim.root());
+  SetUsdBody(asset.inertial, &prim.root());
   const std::vector<std::string> materials = prim.Materials(asset.visual, look, asset.name);
   AddShapes(asset.visual, asset.parts, materials,
             prim.Contact({asset.friction, asset.restitution, asset.rolling_friction}),
@@ -130,19 +120,21 @@ UsdFiles UsdOf(const Asset& asset, const PbrLook& look) {
 UsdFiles UsdOf(const ArticulatedAsset& asset) {
   AssetPrim prim(asset.name, asset.parameters);
   prim.root().Apply("PhysicsArticulationRootAPI");
-  UsdTree tree(asset, prim.path());
+  UsdTreeStart start;
+  start.fixed = asset.fixed;
+  const UsdTree tree(MakeKinematicModel(asset), start, prim.path());
+  std::vector<UsdPrim> links;
   for (size_t i = 0; i < asset.links.size(); ++i) {
     const ArticulatedLink& link = asset.links[i];
-    UsdPrim body("Xform", tree.LinkName(i));
-    body.Meta("displayName", UsdString(link.name)).Place(tree.RootFromLink(i));
-    SetBody(link.inertial, &body);
+    UsdPrim body = tree.Link(i);
     AssetPrim::Label(link.label, "part", &body);
-    tree.FilterPairs(i, &body);
     const std::vector<std::string> materials = prim.Materials(link.visual, {}, link.name);
     AddShapes(link.visual, link.parts, materials,
               prim.Contact({link.friction, link.restitution, 0.0}), &body);
-    prim.root().Add(std::move(body));
+    if (tree.IsBody(i)) SetUsdFilteredPairs(tree.ExcludedPaths(i), &body);
+    links.push_back(std::move(body));
   }
+  tree.AddLinks(std::move(links), &prim.root());
   prim.root().Add(tree.Joints());
   return prim.Finish("Simwright " SIMWRIGHT_VERSION ": " + asset.name);
 }

@@ -32,10 +32,11 @@ struct UsdFiles {
 // a fixed asset has a joint that holds its root link to the world. Limits of velocity, friction of
 // joints and joints that follow others of their kind (HasUsdMimic) use Newton's schemas. Floating
 // and planar joints, other mimic relations, and limits of effort are left out; a body of mass 0
-// means to USD that its mass is to be computed.
+// means to USD that its mass is to be computed, unless a fixed joint makes it a part of its
+// parent's.
 //
-// Throw core::Error if a material names an image that is missing, or a joint or an excluded pair a
-// link that is missing.
+// Throw core::Error if a material names an image that is missing, or a joint a link that is missing
+// or comes later than its child.
 UsdFiles UsdOf(const Asset& asset, const PbrLook& look);
 UsdFiles UsdOf(const ArticulatedAsset& asset);
 

@@ -178,4 +178,27 @@ UsdPrim UsdCollisionMesh(const std::string& name, const core::TriangleMesh& part
   return prim;
 }
 
+UsdPrim UsdCollisionCapsule(const std::string& name, const Eigen::Vector3d& a,
+                            const Eigen::Vector3d& b, double radius, const std::string& material) {
+  const double length = (b - a).norm();
+  const bool is_sphere = length < 1e-9;
+  UsdPrim prim(is_sphere ? "Sphere" : "Capsule", name);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = 0.5 * (a + b);
+  const Eigen::Vector3d half(radius, radius, radius + (is_sphere ? 0.0 : 0.5 * length));
+  if (!is_sphere) {
+    pose.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), b - a).matrix();
+    prim.Set("uniform token axis", "\"Z\"").Set("double height", UsdDouble(length));
+  }
+  prim.Apply("PhysicsCollisionAPI")
+      .Apply("MaterialBindingAPI")
+      .Set("double radius", UsdDouble(radius))
+      .Set("float3[] extent",
+           "[" + UsdFloats(Eigen::Vector3d(-half)) + ", " + UsdFloats(half) + "]")
+      .Set("uniform token purpose", "\"guide\"")
+      .Set("rel material:binding:physics", "<" + material + ">")
+      .Place(pose);
+  return prim;
+}
+
 }  // namespace simwright::assets

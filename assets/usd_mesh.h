@@ -19,4 +19,9 @@ UsdPrim UsdVisualMesh(const std::string& name, const core::TexturedMesh& visual,
 UsdPrim UsdCollisionMesh(const std::string& name, const core::TriangleMesh& part,
                          const std::string& material);
 
+// Returns the points within `radius` of the segment from `a` to `b` (m) as a shape that collides: a
+// capsule, or a sphere if a = b.
+UsdPrim UsdCollisionCapsule(const std::string& name, const Eigen::Vector3d& a,
+                            const Eigen::Vector3d& b, double radius, const std::string& material);
+
 }  // namespace simwright::assets

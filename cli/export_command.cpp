@@ -150,7 +150,7 @@ int ExportAs(const ExportFlags& flags, const CommonOptions& common) {
 // Throws CLI::ParseError for an option that the chosen kind of export does not use.
 void RequireUsedOptions(const CLI::App& command, const ExportFlags& flags) {
   const bool images = HasImages(flags);
-  const bool model = flags.format == kUsd;
+  const bool model = flags.format == kUsd && !flags.world;
   const auto refuse = [&command](std::initializer_list<const char*> options, const char* what) {
     for (const char* option : options) {
       if (command.count(option) > 0) throw CLI::ValidationError(option, what);
@@ -170,12 +170,13 @@ void RequireUsedOptions(const CLI::App& command, const ExportFlags& flags) {
 // Throws CLI::ParseError for flags that do not belong together.
 void RequireExportSource(const ExportFlags& flags) {
   const bool policy = kPolicyFormats.contains(flags.format);
-  const bool world = Contains(kWorldFormats, flags.format);
+  const bool world = flags.world || Contains(kWorldFormats, flags.format);
   const bool images = HasImages(flags);
   const auto need = [](bool ok, const char* option, const char* what) {
     if (!ok) throw CLI::ValidationError(option, std::string("needs ") + what);
   };
-  need(world || !flags.world, "--world", "--format mjcf, sdf or drake");
+  need(!flags.world || flags.format == kUsd || Contains(kWorldFormats, flags.format), "--world",
+       "--format mjcf, sdf, drake or usd");
   need(flags.world || !world, "--format", "--world for mjcf, sdf and drake");
   need(world || flags.task.empty(), "--task", "--world");
   need(world || flags.robot == "panda", "--robot", "--world");
@@ -185,10 +186,10 @@ void RequireExportSource(const ExportFlags& flags) {
   need(policy || world || flags.subtask.empty(), "--subtask", "a policy or --world");
   if (flags.run.empty() && flags.skill.empty()) {
     throw CLI::RequiredError(
-        flags.format == kUsd ? "the folder of an asset"
-        : policy || images   ? "a folder written by `simwright train`, or --skill NAME"
-        : world ? "a folder written by `simwright train`, or a tasks.json with --task NAME"
-                : "a folder written by `simwright train`");
+        world ? "a folder written by `simwright train`, or a tasks.json with --task NAME"
+        : flags.format == kUsd ? "the folder of an asset"
+        : policy || images     ? "a folder written by `simwright train`, or --skill NAME"
+                               : "a folder written by `simwright train`");
   }
 }
 
@@ -262,7 +263,7 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("--subtask", flags->subtask, "Only the policy or world of this subtask");
   command->add_flag("--world", flags->world,
                     "Export the robot, furniture and objects of a task as one world (mjcf, sdf, "
-                    "drake)");
+                    "drake, usd)");
   command->add_option("--task", flags->task, "With --world: the task")
       ->default_str("the folder's first");
   command->add_option("--robot", flags->robot,
@@ -275,7 +276,7 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
              "sdf", "drake"},
             "",
             "ros2 (YAML, or JSON by the extension), csv, robomimic, onnx, torchscript; with images "
-            "lerobot, mcap; of an asset usd; with --world mjcf, sdf, drake",
+            "lerobot, mcap; of an asset usd; with --world mjcf, sdf, drake, usd",
             [flags](const std::string& name) { flags->format = name; })
       ->required();
   command

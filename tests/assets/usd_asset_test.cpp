@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "assets/usd_joint.h"
 #include "assets/usd_material.h"
 #include "assets/usd_prim.h"
+#include "assets/usd_tree.h"
 #include "core/error.h"
 #include "tests/assets/sample_articulated.h"
 #include "tests/assets/sample_asset.h"
@@ -113,7 +113,7 @@ TEST(UsdAssetText, JointsHaveLimitsOfVelocityAndFollowOthersOfTheirKind) {
   Joint& handle = asset.joints[1];
   handle.type = JointType::kContinuous;
   handle.mimic = {"door_joint", -2.0, 0.25};
-  EXPECT_TRUE(HasUsdMimic(asset, handle));
+  EXPECT_TRUE(HasUsdMimic(asset.joints, handle));
   const std::string follower = PrimText(UsdOf(asset).text, "handle_0_joint");
   EXPECT_NE(follower.find("NewtonMimicAPI"), std::string::npos);
   EXPECT_NE(follower.find("newton:mimicJoint = </sample_chest/joints/door_joint>"),
@@ -121,7 +121,7 @@ TEST(UsdAssetText, JointsHaveLimitsOfVelocityAndFollowOthersOfTheirKind) {
   EXPECT_EQ(NumberOf(follower, "newton:mimicCoef1"), -2.0);
   EXPECT_NEAR(NumberOf(follower, "newton:mimicCoef0"), 0.25 * 180.0 / std::numbers::pi, 1e-6);
   handle.type = JointType::kPrismatic;  // its leader turns
-  EXPECT_FALSE(HasUsdMimic(asset, handle));
+  EXPECT_FALSE(HasUsdMimic(asset.joints, handle));
   EXPECT_EQ(UsdOf(asset).text.find("NewtonMimicAPI"), std::string::npos);
 }
 

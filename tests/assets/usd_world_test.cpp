@@ -30,7 +30,7 @@ TEST(WorldUsd, ReferencesTheAssetOfEachObjectWhereItIs) {
         << object.name;
     EXPECT_EQ(prim.find("delete apiSchemas") != std::string::npos, object.welded);
   }
-  const std::string floor = PrimText(text, "ground");
+  const std::string floor = PrimText(text, "plane");
   EXPECT_NE(floor.find("PhysicsCollisionAPI"), std::string::npos);
   EXPECT_NE(floor.find("axis = \"Z\""), std::string::npos);
   EXPECT_EQ(NumberOf(text, "physics:gravityMagnitude"), 9.81);
@@ -53,9 +53,9 @@ TEST(WorldUsd, NamesThatClashAreRefused) {
   EXPECT_THROW(WorldUsd("room", sample.objects), core::Error);
   sample.objects[2].name = "ground";
   EXPECT_THROW(WorldUsd("room", sample.objects), core::Error);
-  // "looks" is a prim of the world's own.
-  sample.objects[2].name = "looks";
-  EXPECT_FALSE(PrimText(WorldUsd("room", sample.objects), "looks_2").empty());
+  // "physics" is a prim of the world's own.
+  sample.objects[2].name = "physics";
+  EXPECT_FALSE(PrimText(WorldUsd("room", sample.objects), "physics_2").empty());
 }
 
 }  // namespace

@@ -31,3 +31,15 @@ def scenes(tmp_path_factory):
     run("scene", "generate", "--type", "dimsum", "--count", 2, "-o", folder / "data")
     run("scene", "export", folder / "data", "--format", "usd", "-o", folder / "worlds")
     return folder / "worlds"
+
+
+@pytest.fixture(scope="session")
+def worlds(assets, tmp_path_factory):
+    """By format: the folder of the world of a task with the Panda, the microwave and other objects."""
+    folder = tmp_path_factory.mktemp("worlds")
+    run("tasks", assets["microwave"], "--count", 6, "-o", folder / "tasks.json")
+    task = json.loads((folder / "tasks.json").read_text())["tasks"][0]["name"]
+    for kind in ("usd", "mjcf"):
+        run("export", folder / "tasks.json", "--world", "--task", task, "--format", kind,
+            "-o", folder / kind)
+    return {kind: folder / kind for kind in ("usd", "mjcf")}

@@ -27,9 +27,13 @@ def findings(stage):
 
 
 def newton_model(layer, floor=False):
-    """Returns Newton's model of a layer, with the plane z = 0 if the layer has none."""
+    """Returns Newton's model of a layer, with the plane z = 0 if the layer has none.
+
+    Newton reads the positions of joints at the start by the schemas of PhysX.
+    """
     builder = newton.ModelBuilder()
-    builder.add_usd(str(layer))
+    builder.add_usd(str(layer), schema_resolvers=[newton.usd.SchemaResolverNewton(),
+                                                  newton.usd.SchemaResolverPhysx()])
     if floor:
         builder.add_ground_plane()
     return builder.finalize(device="cpu")

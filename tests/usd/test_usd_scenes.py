@@ -54,4 +54,4 @@ def test_newton_reads_bodies_shapes_and_the_floor(scenes):
         labels = [str(label) for label in read.shape_label]
         for one in described(folder):
             assert any(f"/{one['name']}/collision_" in label for label in labels), one["name"]
-        assert any(label.endswith("/ground") for label in labels)
+        assert any(label.endswith("/ground/plane") for label in labels)

@@ -220,7 +220,7 @@ TEST_F(WorldExportCommand, WrongRequestsAreRefusedInOneLine) {
            {file + " --world --format mjcf -o w", 1, "name one with --task"},
            {file + " --task fly --world --format mjcf -o w", 1, "there is no task 'fly'"},
            {Pick() + " --subtask fly --world --format sdf -o w", 1, "it has pick_up_block"},
-           {Pick() + " --world --format csv -o w", 2, "needs --format mjcf, sdf or drake"},
+           {Pick() + " --world --format csv -o w", 2, "needs --format mjcf, sdf, drake or usd"},
            {Pick() + " --format mjcf -o w", 2, "needs --world"},
            {Pick() + " --task x --format csv -o w", 2, "--task: needs --world"},
            {"--world --format mjcf -o w", 2, "or a tasks.json with --task NAME"}}) {

@@ -5,7 +5,7 @@
 #include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
 #include "assets/usd_asset.h"
-#include "assets/usd_joint.h"
+#include "assets/usd_tree.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
@@ -40,7 +40,7 @@ void CheckJoint(const assets::ArticulatedAsset& asset, const assets::Joint& join
                          "UsdPhysics has no planar or floating joints; the link moves freely"});
   }
   if (!joint.mimic.has_value()) return;
-  if (assets::HasUsdMimic(asset, joint)) {
+  if (assets::HasUsdMimic(asset.joints, joint)) {
     findings->push_back({"usd-mimic-of-newton", core::Severity::kInfo, joint.name,
                          "follows a joint by Newton's schema; UsdPhysics has none, so Isaac Sim "
                          "moves it by itself"});
@@ -53,10 +53,12 @@ void CheckJoint(const assets::ArticulatedAsset& asset, const assets::Joint& join
 void ExportArticulated(const AssetExportRequest& request, AssetExportReport* report) {
   const assets::ArticulatedAsset asset = assets::ReadArticulatedAsset(request.asset);
   report->bodies = static_cast<int>(asset.links.size());
-  for (const assets::ArticulatedLink& link : asset.links) {
+  for (size_t i = 0; i < asset.links.size(); ++i) {
+    const assets::ArticulatedLink& link = asset.links[i];
     report->shapes += static_cast<int>(link.parts.size());
     report->mass += link.inertial.mass;
-    if (link.inertial.mass > 0.0) continue;
+    const bool is_carried = i > 0 && !asset.joints[i - 1].Moves();
+    if (link.inertial.mass > 0.0 || is_carried) continue;
     report->findings.push_back(
         {"usd-massless-link", core::Severity::kWarning, link.name,
          "the link has no mass; readers of USD compute one from its shapes"});

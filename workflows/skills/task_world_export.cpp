@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include "assets/obj_file.h"
+#include "assets/usd_tree_world.h"
 #include "assets/world_writer.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -100,6 +103,12 @@ std::string TaskPackage(const fs::path& output) {
 // Writes the world into `folder`; returns the name of its file.
 std::string WriteTaskWorld(const skills::TaskWorld& world, const std::string& format,
                            const std::string& package, const fs::path& folder) {
+  if (format == "usd") {
+    std::map<std::string, const core::TriangleMesh*> meshes;
+    for (const skills::WorldMesh& mesh : world.meshes) meshes[mesh.file] = &mesh.mesh;
+    core::WriteFile(folder / "world.usda", TreeWorldUsd(world.task, world.bodies, meshes));
+    return "world.usda";
+  }
   fs::create_directories(folder / "meshes");
   for (const skills::WorldMesh& mesh : world.meshes) {
     core::WriteFile(folder / mesh.file, assets::ObjText(mesh.mesh, true));
@@ -124,8 +133,9 @@ std::string WriteTaskWorld(const skills::TaskWorld& world, const std::string& fo
 }  // namespace
 
 TaskWorldExportReport ExportTaskWorld(const TaskWorldExportRequest& request) {
-  if (request.format != "mjcf" && request.format != "sdf" && request.format != "drake") {
-    throw core::Error("there is no such world format", request.format, "mjcf, sdf, drake");
+  const std::set<std::string> formats = {"mjcf", "sdf", "drake", "usd"};
+  if (!formats.contains(request.format)) {
+    throw core::Error("there is no such world format", request.format, "mjcf, sdf, drake, usd");
   }
   const SkillRun run = SourceOf(request);
   const std::vector<RunSkill> prepared = PrepareSkills(run);

@@ -15,7 +15,7 @@ struct TaskWorldExportRequest {
   std::string task;              // its name; may be empty for a folder: its first
   std::string subtask;           // empty: the task's first
   std::string robot = "panda";   // for a tasks.json (SkillRun::robot)
-  std::string format;            // "mjcf", "sdf", "drake"
+  std::string format;            // "mjcf", "sdf", "drake", "usd"
   // The seed of a start that is sampled as in an evaluation; none: the start that the subtask
   // describes.
   std::optional<std::uint64_t> start_seed;
@@ -35,8 +35,8 @@ struct TaskWorldExportReport {
 
 // Writes the robot, furniture and objects of a task at its start as one world (TaskWorld):
 // world.xml (MJCF), world.sdf, or world.dmd.yaml with one SDF per body (Drake), and the meshes
-// beside it. Throws core::Error for an unknown task, subtask or format, an asset that is missing or
-// has changed, and an existing output.
+// beside it; or world.usda, which holds the meshes. Throws core::Error for an unknown task, subtask
+// or format, an asset that is missing or has changed, and an existing output.
 TaskWorldExportReport ExportTaskWorld(const TaskWorldExportRequest& request);
 
 std::string TaskWorldTable(const TaskWorldExportReport& report);
