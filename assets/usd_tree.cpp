@@ -51,6 +51,33 @@ bool HasUsdMimic(const std::vector<Joint>& joints, const Joint& joint) {
   return (Turns(joint.type) && Turns(leader->type)) || (slides(joint) && slides(*leader));
 }
 
+core::Findings UsdTreeFindings(const KinematicModel& model, bool fixed) {
+  core::Findings findings;
+  for (size_t i = 0; i < model.links().size(); ++i) {
+    const KinematicLink& link = model.links()[i];
+    const bool moves = i == 0 ? !fixed : model.joints()[i - 1].Moves();
+    if (link.inertial.mass > 0.0 || !moves) continue;
+    findings.push_back({"usd-massless-link", core::Severity::kWarning, link.name,
+                        "the link has no mass; readers of USD compute one from its shapes"});
+  }
+  for (const Joint& joint : model.joints()) {
+    if (joint.type == JointType::kFloating || joint.type == JointType::kPlanar) {
+      findings.push_back({"usd-joint-left-out", core::Severity::kWarning, joint.name,
+                          "UsdPhysics has no planar or floating joints; the link moves freely"});
+    }
+    if (!joint.mimic.has_value()) continue;
+    if (HasUsdMimic(model.joints(), joint)) {
+      findings.push_back({"usd-mimic-of-newton", core::Severity::kInfo, joint.name,
+                          "follows a joint by Newton's schema; UsdPhysics has none, so Isaac Sim "
+                          "moves it by itself"});
+    } else {
+      findings.push_back({"usd-mimic-left-out", core::Severity::kWarning, joint.name,
+                          "no schema lets it follow a joint of another kind; it moves by itself"});
+    }
+  }
+  return findings;
+}
+
 UsdTree::UsdTree(std::shared_ptr<const KinematicModel> model, UsdTreeStart start, std::string root)
     : model_(std::move(model)), start_(std::move(start)), root_(std::move(root)) {
   start_.positions.resize(model_->joints().size(), 0.0);

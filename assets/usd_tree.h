@@ -9,13 +9,19 @@
 #include "assets/kinematic_model.h"
 #include "assets/tree_world.h"
 #include "assets/usd_prim.h"
+#include "core/finding.h"
 
 namespace simwright::assets {
 
 // Returns true if the joint follows one of its own kind, which NewtonMimicAPI expresses.
 bool HasUsdMimic(const std::vector<Joint>& joints, const Joint& joint);
 
-// Where a tree is, and what moves it.
+// Returns what a layer of UsdPhysics does not express of a tree: floating and planar joints, joints
+// that follow others, and the mass of bodies that have none. `fixed`: the root is fixed to the
+// world.
+core::Findings UsdTreeFindings(const KinematicModel& model, bool fixed);
+
+// The start of a tree: the root's pose, the joints' positions, and the motors.
 struct UsdTreeStart {
   std::vector<double> positions;  // rad or m, by joint; empty: zero
   Eigen::Isometry3d world_from_root = Eigen::Isometry3d::Identity();  // of a fixed root
@@ -33,8 +39,7 @@ class UsdTree {
   // The name of a link's prim, which USD allows.
   const std::string& LinkName(size_t link) const { return names_[link]; }
   std::string LinkPath(size_t link) const { return root_ + "/" + names_[link]; }
-  // The link whose body it is: itself, or the one that carries it.
-  size_t Carrier(size_t link) const { return carriers_[link]; }
+  // Returns false for a link that another body carries.
   bool IsBody(size_t link) const { return carriers_[link] == link; }
   // Returns the prim of a link, placed in the root's frame, or in its carrier's. A body has its
   // inertial.
@@ -56,7 +61,7 @@ class UsdTree {
   UsdTreeStart start_;
   std::string root_;
   std::vector<std::string> names_;        // by link
-  std::vector<size_t> carriers_;          // by link
+  std::vector<size_t> carriers_;          // by link: the link whose body it is a part of
   std::vector<Eigen::Isometry3d> poses_;  // by link, in the root's frame
 };
 

@@ -125,6 +125,32 @@ TEST(UsdAssetText, JointsHaveLimitsOfVelocityAndFollowOthersOfTheirKind) {
   EXPECT_EQ(UsdOf(asset).text.find("NewtonMimicAPI"), std::string::npos);
 }
 
+TEST(UsdTreeFindings, SayWhatALayerDoesNotExpress) {
+  ArticulatedAsset asset = SampleArticulated();
+  const auto codes = [&](bool fixed) {
+    std::vector<std::string> found;
+    for (const core::Finding& f : UsdTreeFindings(*MakeKinematicModel(asset), fixed)) {
+      found.push_back(f.code + " " + f.place);
+    }
+    return found;
+  };
+  EXPECT_TRUE(codes(false).empty());
+  asset.links[0].inertial.mass = 0.0;
+  asset.links[2].inertial.mass = 0.0;  // on a fixed joint: the door carries it
+  EXPECT_EQ(codes(false), std::vector<std::string>{"usd-massless-link body"});
+  EXPECT_TRUE(codes(true).empty());
+  Joint& handle = asset.joints[1];
+  asset.links[2].inertial.mass = 0.1;
+  handle.mimic = {"door_joint", 1.0, 0.0};
+  handle.type = JointType::kRevolute;
+  EXPECT_EQ(codes(true), std::vector<std::string>{"usd-mimic-of-newton handle_0_joint"});
+  handle.type = JointType::kPrismatic;
+  EXPECT_EQ(codes(true), std::vector<std::string>{"usd-mimic-left-out handle_0_joint"});
+  handle.mimic.reset();
+  handle.type = JointType::kPlanar;
+  EXPECT_EQ(codes(true), std::vector<std::string>{"usd-joint-left-out handle_0_joint"});
+}
+
 TEST(UsdAssetText, AFixedAssetIsHeldAndExcludedPairsAreFiltered) {
   ArticulatedAsset asset = SampleArticulated();
   asset.fixed = true;

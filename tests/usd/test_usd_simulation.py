@@ -32,7 +32,7 @@ def motion(model, names, seconds):
     model.opt.tolerance = 1e-12
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_GRAVITY
-    # How soft MuJoCo makes friction and limits is its own setting, which USD does not have.
+    # The softness of friction and limits is MuJoCo's own setting; USD has none.
     model.dof_solref[:], model.dof_solimp[:] = (0.004, 1.0), (0.9999, 0.9999, 0.001, 0.5, 2.0)
     model.jnt_solref[:], model.jnt_solimp[:] = (0.004, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0)
     data = mujoco.MjData(model)

@@ -32,41 +32,15 @@ void ExportRigid(const AssetExportRequest& request, AssetExportReport* report) {
   Write(assets::UsdOf(asset, look), asset.name, request, report);
 }
 
-// Says which motions of a joint UsdPhysics does not express.
-void CheckJoint(const assets::ArticulatedAsset& asset, const assets::Joint& joint,
-                core::Findings* findings) {
-  if (joint.type == assets::JointType::kFloating || joint.type == assets::JointType::kPlanar) {
-    findings->push_back({"usd-joint-left-out", core::Severity::kWarning, joint.name,
-                         "UsdPhysics has no planar or floating joints; the link moves freely"});
-  }
-  if (!joint.mimic.has_value()) return;
-  if (assets::HasUsdMimic(asset.joints, joint)) {
-    findings->push_back({"usd-mimic-of-newton", core::Severity::kInfo, joint.name,
-                         "follows a joint by Newton's schema; UsdPhysics has none, so Isaac Sim "
-                         "moves it by itself"});
-  } else {
-    findings->push_back({"usd-mimic-left-out", core::Severity::kWarning, joint.name,
-                         "no schema lets it follow a joint of another kind; it moves by itself"});
-  }
-}
-
 void ExportArticulated(const AssetExportRequest& request, AssetExportReport* report) {
   const assets::ArticulatedAsset asset = assets::ReadArticulatedAsset(request.asset);
   report->bodies = static_cast<int>(asset.links.size());
-  for (size_t i = 0; i < asset.links.size(); ++i) {
-    const assets::ArticulatedLink& link = asset.links[i];
+  for (const assets::ArticulatedLink& link : asset.links) {
     report->shapes += static_cast<int>(link.parts.size());
     report->mass += link.inertial.mass;
-    const bool is_carried = i > 0 && !asset.joints[i - 1].Moves();
-    if (link.inertial.mass > 0.0 || is_carried) continue;
-    report->findings.push_back(
-        {"usd-massless-link", core::Severity::kWarning, link.name,
-         "the link has no mass; readers of USD compute one from its shapes"});
   }
-  for (const assets::Joint& joint : asset.joints) {
-    report->joints += joint.Moves() ? 1 : 0;
-    CheckJoint(asset, joint, &report->findings);
-  }
+  for (const assets::Joint& joint : asset.joints) report->joints += joint.Moves() ? 1 : 0;
+  report->findings = assets::UsdTreeFindings(*assets::MakeKinematicModel(asset), asset.fixed);
   Write(assets::UsdOf(asset), asset.name, request, report);
 }
 

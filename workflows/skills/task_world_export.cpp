@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "assets/obj_file.h"
+#include "assets/usd_tree.h"
 #include "assets/usd_tree_world.h"
 #include "assets/world_writer.h"
 #include "core/error.h"
@@ -100,6 +101,24 @@ std::string TaskPackage(const fs::path& output) {
   return assets::FileSafeName((whole.has_filename() ? whole : whole.parent_path()).filename());
 }
 
+// Says what the layer of a world leaves out.
+void CheckUsdWorld(const skills::TaskWorld& world, core::Findings* findings) {
+  for (const assets::TreeBody& body : world.bodies) {
+    for (core::Finding& finding : assets::UsdTreeFindings(*body.kinematics, body.fixed)) {
+      finding.place = body.name + ": " + finding.place;
+      findings->push_back(std::move(finding));
+    }
+    for (size_t i = 0; i < body.links.size(); ++i) {
+      if (!body.links[i].friction_prevails) continue;
+      findings->push_back(
+          {"usd-friction-of-reader", core::Severity::kInfo,
+           body.name + ": " + body.kinematics->links()[i].name,
+           "decides the friction of its contacts in training; readers of USD combine "
+           "the frictions of both surfaces"});
+    }
+  }
+}
+
 // Writes the world into `folder`; returns the name of its file.
 std::string WriteTaskWorld(const skills::TaskWorld& world, const std::string& format,
                            const std::string& package, const fs::path& folder) {
@@ -161,6 +180,7 @@ TaskWorldExportReport ExportTaskWorld(const TaskWorldExportRequest& request) {
                                "open",
                                0.0, "export the subtask before it"});
   }
+  if (request.format == "usd") CheckUsdWorld(world, &report.findings);
   core::StagedFolder staged(request.output, request.force);
   report.file =
       WriteTaskWorld(world, request.format, TaskPackage(request.output), staged.staging());
