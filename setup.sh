@@ -5,6 +5,9 @@
 # the compiler of the fuzz targets, the formatter, the linter, and what the fast tests link, --bench
 # the libraries that only benchmarks compare with.
 #
+# --package adds what makes and tests the Debian package, with .venv-package to build the Python
+# module for it.
+#
 # Other options create Python environments from PyPI: --python .venv-python, with what the Python
 # module is built with and its tests run (PyTorch and Stable-Baselines3, 5 GB); --peers .venv-peers
 # with Drake, MuJoCo, PyBullet and yourdfpy (700 MB); --usd .venv-usd with usd-core and Newton
@@ -27,7 +30,7 @@ environments=()
 install_packages=$([ $# -gt 0 ] || echo yes)
 for wanted in "$@"; do
   case $wanted in
-    --tests | --catalogue | --fuzz | --bench) install_packages=yes ;;
+    --tests | --catalogue | --fuzz | --bench | --package) install_packages=yes ;;
   esac
   case $wanted in
     --tests)
@@ -39,9 +42,13 @@ for wanted in "$@"; do
       packages+=("${test_libraries[@]}" clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev)
       ;;
     --bench) packages+=(libqhull-dev libfcl-dev libccd-dev libmeshoptimizer-dev) ;;
+    --package)
+      packages+=(dpkg-dev help2man debootstrap)
+      environments+=(package)
+      ;;
     --python | --peers | --usd | --lerobot | --robomimic | --mcap) environments+=("${wanted#--}") ;;
     *)
-      echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz, --bench, --python, --peers, --usd, --lerobot, --robomimic or --mcap)" >&2
+      echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz, --bench, --package, --python, --peers, --usd, --lerobot, --robomimic or --mcap)" >&2
       exit 2
       ;;
   esac
@@ -80,6 +87,7 @@ create_environment() {
   local options=(--only-binary :all:)
   case $1 in
     python | peers | usd) requirements=tests/$1/requirements.txt ;;
+    package) requirements=packaging/requirements.txt ;;
     *) requirements=tests/python/peers/requirements-$1.txt ;;
   esac
   cmp -s "$requirements" "$folder/requirements.txt" && return 0

@@ -5,6 +5,7 @@
 #include "assets/asset_folder.h"
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "cli/usage.h"
 #include "core/error.h"
 #include "core/json.h"
 #include "validation/check.h"
@@ -16,6 +17,7 @@ namespace {
 struct CheckFlags {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path root;
+  validation::CheckLimits limits;
 };
 
 // The reports of all inputs; `many` is true if an input is a folder of assets.
@@ -28,11 +30,11 @@ void CheckInput(const std::filesystem::path& input, const CheckFlags& flags,
                 core::Progress* progress, Checked* checked) {
   if (!std::filesystem::exists(input)) throw core::Error("no such file or folder", input);
   if (!std::filesystem::is_directory(input)) {
-    checked->reports.push_back(validation::CheckUrdf(input, flags.root));
+    checked->reports.push_back(validation::CheckUrdf(input, flags.root, flags.limits));
     return;
   }
   if (assets::IsAssetFolder(input)) {
-    checked->reports.push_back(validation::CheckAsset(input));
+    checked->reports.push_back(validation::CheckAsset(input, flags.limits));
     return;
   }
   const std::vector<std::filesystem::path> folders = validation::AssetFoldersIn(input);
@@ -41,7 +43,8 @@ void CheckInput(const std::filesystem::path& input, const CheckFlags& flags,
                       "give an asset folder, a folder of asset folders, or a .urdf file");
   }
   checked->many = true;
-  for (validation::CheckReport& report : validation::CheckFolders(folders, progress)) {
+  for (validation::CheckReport& report :
+       validation::CheckFolders(folders, progress, flags.limits)) {
     checked->reports.push_back(std::move(report));
   }
 }
@@ -87,6 +90,7 @@ void AddCheck(CLI::App* app, CommonOptions* common, Run* run) {
       "check", "Check geometry, inertia, file readers, a drop test, and joint motion");
   command->footer(
       "Examples:\n  simwright check apple\n  simwright check assets\n"
+      "  simwright check assets --profile simready\n"
       "A folder of assets gives one line per asset. The exit code is 1 if a check fails.");
   command
       ->add_option("inputs", flags->inputs,
@@ -94,6 +98,13 @@ void AddCheck(CLI::App* app, CommonOptions* common, Run* run) {
       ->required();
   command->add_option("--root", flags->root, "URDF: do not read files outside this folder")
       ->default_str("the URDF's own folder");
+  AddChoice(command, "--profile", {"asset", "simready"}, "asset",
+            "What is examined: simready adds a drop from 10 cm, slopes, a stack and grasps, in "
+            "Bullet and MuJoCo",
+            [flags](const std::string& name) {
+              flags->limits.profile = name == "simready" ? validation::CheckProfile::kSimReady
+                                                         : validation::CheckProfile::kAsset;
+            });
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Check(*flags, *common); }; });
 }

@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "cli/build_information.h"
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "core/json.h"
@@ -35,16 +36,22 @@ void AddDoctor(CLI::App* app, CommonOptions* common, Run* run) {
 }
 
 void AddVersion(CLI::App* app, CommonOptions* common, Run* run) {
-  CLI::App* command = app->add_subcommand("version", "Print the program's version");
+  CLI::App* command =
+      app->add_subcommand("version", "Print the version and what the program was built with");
   command->footer("Example:\n  simwright version");
   AddCommon(command, common);
   command->callback([common, run] {
     *run = [common] {
       if (common->json) {
-        PrintJson(core::OrderedJson{{"program", "simwright"}, {"version", SIMWRIGHT_VERSION}}, {});
+        core::OrderedJson built;
+        for (const auto& [name, version] : BuiltWith()) built[name] = version;
+        PrintJson(
+            core::OrderedJson{
+                {"program", "simwright"}, {"version", SIMWRIGHT_VERSION}, {"built_with", built}},
+            {});
         return 0;
       }
-      std::printf("simwright %s\n", SIMWRIGHT_VERSION);
+      std::fputs(VersionText().c_str(), stdout);
       return 0;
     };
   });

@@ -8,6 +8,7 @@
 #include <new>
 #include <string_view>
 
+#include "cli/build_information.h"
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/usage.h"
@@ -34,6 +35,8 @@ int Main(int argc, char** argv) {
       "Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
       "Each subcommand has its own --help with an example.");
   app.require_subcommand(1);
+  app.set_version_flag("--version", cli::VersionText(),
+                       "Print the version and what the program was built with");
   app.set_config("--config", "",
                  "Read flags from a TOML file, one section per subcommand; "
                  "the command line takes precedence");
@@ -56,6 +59,7 @@ int Main(int argc, char** argv) {
   cli::AddScene(&app, &common, &run);
   cli::AddRun(&app, &common, &run);
   cli::AddDoctor(&app, &common, &run);
+  cli::AddCompletion(&app, &common, &run);
   cli::AddVersion(&app, &common, &run);
   const std::vector<std::string> arguments = cli::ArgumentsOf(argc, argv);
   try {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/findings_output.h"
+#include "core/error.h"
 #include "scene/model/training.h"
 #include "workflows/scenes/scene_post_training.h"
 

@@ -11,6 +11,7 @@ endmacro()
 # Debian's mujocoConfig names an include folder of a package that it does not depend on.
 macro(simwright_require_mujoco)
   find_library(MUJOCO_LIBRARY mujoco REQUIRED)
+  find_path(MUJOCO_HEADER mujoco/mujoco.h)
   if(NOT TARGET mujoco::mujoco)
     add_library(mujoco::mujoco UNKNOWN IMPORTED)
     set_target_properties(mujoco::mujoco PROPERTIES IMPORTED_LOCATION ${MUJOCO_LIBRARY})

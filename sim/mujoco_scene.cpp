@@ -35,7 +35,7 @@ class WarningScope {
 // Includes the asset in a scene with a floor. A temporary file, since MuJoCo 2.2 reads files.
 class SceneFile {
  public:
-  SceneFile(const fs::path& mjcf, const std::vector<double>& balls) {
+  SceneFile(const fs::path& mjcf, const std::vector<double>& balls, const std::string& elements) {
     const fs::path folder = fs::absolute(mjcf).parent_path();
     const std::string model = core::ReadFile(mjcf);
     int geoms = 0;
@@ -61,7 +61,7 @@ class SceneFile {
       out << "<body name=\"ball_" << i << "\"><freejoint/><geom type=\"sphere\" size=\"" << balls[i]
           << "\" condim=\"4\" solref=\"0.005 1\"/></body>";
     }
-    out << "</worldbody></mujoco>\n";
+    out << "</worldbody>" << elements << "</mujoco>\n";
   }
   ~SceneFile() {
     std::error_code code;
@@ -75,10 +75,11 @@ class SceneFile {
 
 }  // namespace
 
-MujocoScene::MujocoScene(const fs::path& mjcf, const std::vector<double>& balls, Ground ground) {
+MujocoScene::MujocoScene(const fs::path& mjcf, const std::vector<double>& balls, Ground ground,
+                         const std::string& elements) {
   if (!fs::exists(mjcf)) throw core::Error("no such file", mjcf.string());
   std::optional<SceneFile> scene;
-  if (ground == Ground::kAdded) scene.emplace(mjcf, balls);
+  if (ground == Ground::kAdded) scene.emplace(mjcf, balls, elements);
   const fs::path& file = scene ? scene->path() : mjcf;
   char message[1000] = "";
   {

@@ -16,10 +16,11 @@ class MujocoScene {
   // kOwn: the file is a complete world and is loaded unchanged, without balls.
   enum class Ground { kAdded, kOwn };
 
-  // `balls` are radii (m) of free spheres of 1000 kg/m^3. Throws core::Error with MuJoCo's own
-  // message if the file does not compile.
+  // `balls` are radii (m) of free spheres of 1000 kg/m^3. `elements` are further elements of the
+  // MJCF file, such as <asset> and <worldbody>. Both need Ground::kAdded. Throws core::Error with MuJoCo's own message if the
+  // file does not compile.
   explicit MujocoScene(const std::filesystem::path& mjcf, const std::vector<double>& balls = {},
-                       Ground ground = Ground::kAdded);
+                       Ground ground = Ground::kAdded, const std::string& elements = "");
   ~MujocoScene();
   MujocoScene(const MujocoScene&) = delete;
   MujocoScene& operator=(const MujocoScene&) = delete;

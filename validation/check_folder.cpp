@@ -28,9 +28,9 @@ void Gather(const fs::path& folder, std::vector<fs::path>* found) {
   }
 }
 
-CheckReport Checked(const fs::path& folder) {
+CheckReport Checked(const fs::path& folder, const CheckLimits& limits) {
   try {
-    return CheckAsset(folder);
+    return CheckAsset(folder, limits);
   } catch (const core::Error& error) {
     return {folder.string(), {{"readable", core::Severity::kError, folder.string(), error.what()}}};
   }
@@ -45,12 +45,12 @@ std::vector<fs::path> AssetFoldersIn(const fs::path& folder) {
 }
 
 std::vector<CheckReport> CheckFolders(const std::vector<fs::path>& folders,
-                                      core::Progress* progress) {
+                                      core::Progress* progress, const CheckLimits& limits) {
   std::vector<CheckReport> reports(folders.size());
   progress->Stage("check", static_cast<int>(folders.size()));
   core::ParallelFor(static_cast<int>(folders.size()), [&](int i) {
     core::CheckCancelled();
-    reports[static_cast<size_t>(i)] = Checked(folders[static_cast<size_t>(i)]);
+    reports[static_cast<size_t>(i)] = Checked(folders[static_cast<size_t>(i)], limits);
     progress->Advance();
   });
   progress->Finish();

@@ -16,7 +16,7 @@ std::vector<std::filesystem::path> AssetFoldersIn(const std::filesystem::path& f
 // Checks all folders in parallel. The report of an unreadable folder has a single failed result,
 // "readable".
 std::vector<CheckReport> CheckFolders(const std::vector<std::filesystem::path>& folders,
-                                      core::Progress* progress);
+                                      core::Progress* progress, const CheckLimits& limits = {});
 
 // Formats one line per asset, followed by its warnings and failures, and a final line with the
 // counts.

@@ -13,12 +13,10 @@ struct Outcome {
   std::string text;  // stdout, and stderr unless it went elsewhere
 };
 
-// The built program, with these arguments, as a shell runs it. `errors_to` is where the shell
-// redirects stderr: "&1" beside stdout, "/dev/null" nowhere.
-inline Outcome RunProgram(const std::string& arguments, const std::string& errors_to = "&1") {
+// Runs a command in a shell.
+inline Outcome RunShell(const std::string& command) {
   Outcome outcome;
-  FILE* pipe =
-      popen((std::string(SIMWRIGHT_PROGRAM) + " " + arguments + " 2>" + errors_to).c_str(), "r");
+  FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return outcome;
   std::array<char, 4096> buffer;
   size_t count;
@@ -28,6 +26,12 @@ inline Outcome RunProgram(const std::string& arguments, const std::string& error
   const int status = pclose(pipe);
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   return outcome;
+}
+
+// The built program, with these arguments, as a shell runs it. `errors_to` is where the shell
+// redirects stderr: "&1" beside stdout, "/dev/null" nowhere.
+inline Outcome RunProgram(const std::string& arguments, const std::string& errors_to = "&1") {
+  return RunShell(std::string(SIMWRIGHT_PROGRAM) + " " + arguments + " 2>" + errors_to);
 }
 
 }  // namespace simwright

@@ -55,6 +55,7 @@ const char* const kCommands[] = {"lift",
                                  "replay",
                                  "run",
                                  "doctor",
+                                 "completion",
                                  "version",
                                  "scene generate",
                                  "scene train",
@@ -97,8 +98,55 @@ TEST(Usage, JsonIsJson) {
     EXPECT_TRUE(nlohmann::json::parse(outcome.text)["findings"].is_array()) << command;
   }
   const auto version = nlohmann::json::parse(RunProgram("version --json").text);
-  EXPECT_EQ(RunProgram("version").text,
-            "simwright " + version["version"].get<std::string>() + "\n");
+  const std::string text = RunProgram("version").text;
+  EXPECT_EQ(text.rfind("simwright " + version["version"].get<std::string>() + "\n", 0), 0u) << text;
+  EXPECT_EQ(RunProgram("--version").text, text);
+  for (const auto& [name, value] : version["built_with"].items()) {
+    EXPECT_TRUE(std::regex_search(
+        text, std::regex("\n  " + name + " +[^\n]*" + value.get<std::string>().substr(0, 3))))
+        << name;
+    EXPECT_FALSE(value.get<std::string>().empty()) << name;
+  }
+}
+
+// A library's own version, as it reports it when it runs, is what the program says.
+TEST(Usage, VersionNamesTheLibraries) {
+  const auto built = nlohmann::json::parse(RunProgram("version --json").text)["built_with"];
+  EXPECT_EQ(built["nlohmann-json"], std::to_string(NLOHMANN_JSON_VERSION_MAJOR) + "." +
+                                        std::to_string(NLOHMANN_JSON_VERSION_MINOR) + "." +
+                                        std::to_string(NLOHMANN_JSON_VERSION_PATCH));
+  const std::string doctor = RunProgram("doctor").text;
+  EXPECT_NE(doctor.find("MuJoCo " + built["MuJoCo"].get<std::string>()), std::string::npos)
+      << built.dump() << doctor;
+  for (const char* name : {"assimp", "Bullet", "Ceres", "CGAL", "Eigen", "Embree", "libtorch",
+                           "OpenCV", "urdfdom", "compiler"}) {
+    EXPECT_TRUE(built.contains(name)) << name;
+  }
+}
+
+// Runs the completion as bash does, for the words of `line`, of which the last is being typed.
+std::string Completed(const std::string& script, const std::string& line) {
+  const std::string command = "bash -c 'source " + script + "; COMP_WORDS=(" + line +
+                              "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _simwright; "
+                              "echo \"${COMPREPLY[@]}\"'";
+  return RunShell(command).text;
+}
+
+TEST(Usage, BashCompletes) {
+  const core::TemporaryFolder folder;
+  const std::string script = (folder.path() / "simwright").string();
+  core::WriteFile(script, RunProgram("completion --shell bash").text);
+  EXPECT_EQ(Completed(script, "simwright lif"), "lift\n");
+  EXPECT_EQ(Completed(script, "simwright scene gen"), "generate\n");
+  EXPECT_EQ(Completed(script, "simwright import --hei"), "--height\n");
+  EXPECT_EQ(Completed(script, "simwright import --up \"\""), "x y z\n");
+  EXPECT_EQ(Completed(script, "simwright import " + script.substr(0, script.size() - 2)),
+            script + "\n");
+  EXPECT_EQ(Completed(script, "simwright scene features --t"), "\n");
+  EXPECT_EQ(RunShell("bash -n " + script).code, 0);
+  const std::string fish = RunProgram("completion --shell fish").text;
+  EXPECT_NE(fish.find("-n '__fish_seen_subcommand_from import' -l up -r -f -a 'x y z'"),
+            std::string::npos);
 }
 
 TEST(Usage, DoctorNamesWhatItNeeds) {
