@@ -21,8 +21,10 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE zstd)  # a fifth of the time of xz
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libopenblas0-pthread, wordnet-base")
 if(SIMWRIGHT_PYTHON)
-  string(REGEX MATCH "^[0-9]+\\.[0-9]+" simwright_python_minor "${Python_VERSION}")
-  string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", python3 (>= ${simwright_python_minor}), python3-numpy")
+  execute_process(COMMAND ${Python_EXECUTABLE} -c
+    "import sys; print('python3 (>= %d.%d), python3 (<< %d.%d)' % (*sys.version_info[:2], sys.version_info[0], sys.version_info[1] + 1))"
+    OUTPUT_VARIABLE simwright_python_range OUTPUT_STRIP_TRAILING_WHITESPACE)
+  string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", ${simwright_python_range}, python3-numpy")
 endif()
 # What a program that links the libraries is compiled with.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
@@ -47,6 +49,6 @@ set(CPACK_INSTALL_CMAKE_PROJECTS
     "${CMAKE_BINARY_DIR};simwright;package;/")
 if(SIMWRIGHT_PYTHON)
   list(APPEND CPACK_INSTALL_CMAKE_PROJECTS
-       "${CMAKE_BINARY_DIR};simwright;python;/lib/python3/dist-packages/simwright")
+       "${CMAKE_BINARY_DIR};simwright;package_python;/")
 endif()
 include(CPack)

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Writes what the Debian package has beside the program's own files: package_files.sh PROGRAM SOURCE
 # OUT. Manual pages are made by help2man from --help, one for each command, as git has them
-# (simwright-scene-generate); completions by `simwright completion`; copyright and changelog as
-# Debian's policy wants them.
+# (simwright-scene-generate); completions by `simwright completion`; the changelog, and copyright as
+# Debian's policy wants it.
 set -euo pipefail
 program=$1 source=$2 out=$3
 rm -rf "$out"
@@ -10,37 +10,33 @@ manuals=$out/share/man/man1
 doc=$out/share/doc/simwright
 mkdir -p "$manuals" "$doc" "$out"/share/{bash-completion/completions,zsh/vendor-completions,fish/vendor_completions.d}
 
-# The names of the subcommands of `simwright $*`, from its help.
-subcommands() {
-  "$program" "$@" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z0-9_-]*\) .*/\1/p'
-}
-version=$("$program" --version | head -1)
+version=$("$program" --version | sed -n 1p)
+help=$(mktemp -d)
+trap 'rm -rf "$help"' EXIT
 
-# manual COMMAND...: the page of `simwright COMMAND...`.
+# manual COMMAND...: the page of `simwright COMMAND...` and those of its subcommands. help2man runs
+# a program that prints the help, in place of one that starts in half a second.
 manual() {
-  local name=simwright${*:+-$*}
+  local name=simwright${*:+-$*} subcommand
   name=${name// /-}
-  local summary
-  summary=$("$program" "$@" --help | head -1)
+  "$program" "$@" --help >"$help/$name.txt"
+  printf '#!/bin/sh\ncat "%s"\n' "$help/$name.txt" >"$help/$name"
+  chmod +x "$help/$name"
   help2man --no-info --no-discard-stderr --version-string "$version" \
-    --name "$(tr '[:upper:]' '[:lower:]' <<<"${summary:0:1}")${summary:1}" "$program $*" |
+    --name "$(sed -n '1s/^./\L&/p' "$help/$name.txt")" "$help/$name" |
     sed -e "s/^\.TH [A-Z]* /.TH ${name^^} /" -e "s/^simwright \\\\- /$name \\\\- /" |
     gzip -9n >"$manuals/$name.1.gz"
-}
-pages() {
-  manual "$@"
-  local name
-  for name in $(subcommands "$@"); do
-    pages "$@" "$name"
+  for subcommand in $(sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z0-9_-]*\) .*/\1/p' "$help/$name.txt"); do
+    manual "$@" "$subcommand"
   done
 }
-pages
+manual
 
 "$program" completion --shell bash >"$out/share/bash-completion/completions/simwright"
 "$program" completion --shell zsh >"$out/share/zsh/vendor-completions/_simwright"
 "$program" completion --shell fish >"$out/share/fish/vendor_completions.d/simwright.fish"
 
-gzip -9nc "$source/CHANGELOG.md" >"$doc/changelog.gz"
+gzip -9nc "$source/CHANGELOG.md" >"$doc/CHANGELOG.md.gz"
 {
   echo "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/"
   echo "Upstream-Name: simwright"

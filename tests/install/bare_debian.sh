@@ -4,6 +4,10 @@
 # the first steps of README, the demo's run, the Python module, the manual and the completion. Prints
 # the duration of each. Needs root and a Debian mirror (MIRROR); exits with 77 where they are missing.
 set -euo pipefail
+if [ ! -e "$1" ]; then
+  echo "skipped: there is no $1 (./package.sh makes it)"
+  exit 77
+fi
 package=$(realpath "$1")
 mirror=${MIRROR:-http://deb.debian.org/debian}
 if [ "$(id -u)" != 0 ] || ! command -v debootstrap >/dev/null; then
@@ -43,14 +47,14 @@ install_package() {
 }
 timed "apt install" install_package
 inside "! command -v g++"
-inside "simwright --version" | tee "$root/tmp/version.txt" | head -1
-[ "$(head -1 "$root/tmp/version.txt")" = "simwright $(dpkg-deb -f "$package" Version)" ]
+inside "simwright --version" >"$root/tmp/version.txt"
+[ "$(sed -n 1p "$root/tmp/version.txt")" = "simwright $(dpkg-deb -f "$package" Version)" ]
 timed "doctor" inside "simwright doctor"
 timed "demo's run" inside "cd /tmp && simwright run /usr/share/doc/simwright/examples/apple.jpg \
   --category apple --minutes 2 --episodes 100 -o apple_run --quiet"
 inside "test -s /tmp/apple_run/index.html && test -s /tmp/apple_run/trajectory.yaml"
 inside "cd /tmp && simwright import /usr/share/doc/simwright/examples/chair.obj --category chair -o imported --quiet"
-inside "cd /tmp && simwright check imported/chair --json | grep -q '\"passed\": *true'"
+inside "cd /tmp && simwright check imported/chair >/dev/null"
 timed "python" inside "cd /tmp && python3 -c \"
 import simwright
 print('python module', simwright.__version__)
