@@ -383,6 +383,17 @@ void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from
   bullet_->UpdatePoses(&loaded);
 }
 
+void ArticulatedWorld::SetRootVelocity(int body, const Eigen::Vector3d& linear,
+                                       const Eigen::Vector3d& angular) {
+  btMultiBody& multi = *bullet_->Body(body).multi;
+  multi.setBaseVel(ToBullet(linear));
+  multi.setBaseOmega(ToBullet(angular));
+}
+
+void ArticulatedWorld::SetGravity(const Eigen::Vector3d& gravity) {
+  bullet_->world->setGravity(ToBullet(gravity));
+}
+
 void ArticulatedWorld::Drive(int body, int joint, double velocity, double max_force) {
   LoadedJoint& entry = bullet_->Body(body).joints.at(static_cast<size_t>(joint));
   if (!entry.motor) throw core::Error("a fixed joint cannot be driven");
