@@ -17,8 +17,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double kFloatingHeight = 1.0;     // m
-constexpr double kStillSpeed = 1e-3;        // m/s: a finger below it stands still
-constexpr double kStillTime = 0.05;         // s, for so long
+constexpr double kStillTime = 0.05;         // s in which a standing finger moves by less than
+constexpr double kStillDistance = 1e-4;     // m
 constexpr double kCloseTime = 1.5;          // s at most
 constexpr double kPressTime = 0.1;          // s in which the force builds up and contacts settle
 constexpr double kStartPenetration = 1e-3;  // m of the open gripper in the object
@@ -76,9 +76,12 @@ class TrialRun {
   bool Close() {
     const Isometry3d start = rig_.ToolPose().inverse() * rig_.ObjectPose();
     std::array<double, 2> last = rig_.FingerPositions();
-    double still = 0.0;
-    for (double time = 0.0; still < kStillTime; time += rig_.time_step()) {
-      if (time > kCloseTime) return Fail("the fingers do not come to rest on it");
+    std::array<bool, 2> touched = {false, false};
+    const int window = static_cast<int>(std::lround(kStillTime / rig_.time_step()));
+    for (bool still = false; !still;) {
+      if (steps_ * rig_.time_step() > kCloseTime) {
+        return Fail("the fingers do not come to rest on it");
+      }
       rig_.MovePalm(home_);
       rig_.DriveFingers(true);
       Step();
@@ -86,13 +89,14 @@ class TrialRun {
       if (steps_ == 1 && contacts.penetration > kStartPenetration) {
         return Fail("the open gripper is in it");
       }
+      for (size_t i = 0; i < 2; ++i) touched[i] = touched[i] || contacts.fingers[i];
+      if (steps_ % window != 0) continue;
       const std::array<double, 2> now = rig_.FingerPositions();
       if (std::min(now[0], now[1]) > stroke_ - 1e-4) return Fail("the fingers close beside it");
-      const double speed =
-          std::max(std::abs(now[0] - last[0]), std::abs(now[1] - last[1])) / rig_.time_step();
+      const double moved = std::max(std::abs(now[0] - last[0]), std::abs(now[1] - last[1]));
+      still = moved < kStillDistance && touched[0] && touched[1];
       last = now;
-      const bool stands = speed < kStillSpeed && contacts.fingers[0] && contacts.fingers[1];
-      still = stands ? still + rig_.time_step() : 0.0;
+      touched = {false, false};
     }
     rig_.SetGravity(options_.gravity);
     for (double time = 0.0; time < kPressTime; time += rig_.time_step()) {

@@ -60,6 +60,7 @@ ArticulatedBody GripperBody(const GripperModel& gripper, double palm_mass, doubl
   RigidBody palm;
   palm.name = "palm";
   palm.parts = gripper.palm;
+  palm.capsules = gripper.palm_capsules;
   palm.inertial.mass = palm_mass;
   palm.inertial.inertia =
       Eigen::Matrix3d::Identity() * (0.4 * palm_mass * kPalmRadius * kPalmRadius);

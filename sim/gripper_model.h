@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace simwright::sim {
 struct GripperModel {
   std::string name;
   std::vector<core::TriangleMesh> palm;  // convex parts
+  std::vector<std::optional<Capsule>> palm_capsules = {};  // as RigidBody::capsules
   // Convex parts at full opening. fingers[0] closes along -y, fingers[1] along +y.
   std::array<std::vector<core::TriangleMesh>, 2> fingers;
   double max_opening = 0.0;   // m between the finger pads
