@@ -64,12 +64,15 @@ class GraspProver {
     Proof proof;
     const sim::GraspTrialInput input{grasp.object_from_tool, grasp.opening};
     const sim::GraspTrialResult result = bullet_.Run(input);
-    proof.in_bullet = result.held;
     proof.reason = result.reason;
-    if (!proof.in_bullet) return proof;
-    proof.in_mujoco = mujoco_.Run(input).held;
-    if (!proof.in_mujoco) return proof;
+    if (!result.held) return proof;
     proof.quality = QualityOf(grasp, index);
+    proof.in_bullet = proof.quality >= options_.least_quality;
+    if (!proof.in_bullet) {
+      proof.reason = "lost when perturbed";
+      return proof;
+    }
+    proof.in_mujoco = mujoco_.Run(input).held;
     return proof;
   }
 
@@ -90,6 +93,9 @@ class GraspProver {
       tool.translate(shift);
       tool.rotate(turn);
       if (bullet_.Run({tool, grasp.opening}, perturbed_).held) ++held;
+      // The rest cannot reach the least quality.
+      const int most = held + options_.perturbations - 1 - i;
+      if (most < options_.least_quality * options_.perturbations) break;
     }
     return options_.perturbations > 0 ? static_cast<double>(held) / options_.perturbations : 1.0;
   }
@@ -127,6 +133,7 @@ bool GraspProofOptions::IsValid(std::string* error) const {
   if (!(perturbation_distance >= 0.0) || !(perturbation_angle >= 0.0)) {
     return fail("a perturbation must not be negative");
   }
+  if (!(least_quality >= 0.0) || least_quality > 1.0) return fail("least_quality must be 0 to 1");
   if (!(perturbed_hold_time >= 0.0)) return fail("perturbed_hold_time must not be negative");
   return sampler.IsValid(error) && trial.IsValid(error);
 }

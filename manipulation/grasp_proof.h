@@ -24,6 +24,7 @@ struct GraspProofOptions {
   double perturbation_angle = 0.087266462599;  // rad, 5 degrees
   int perturbations = 8;                       // trials per grasp
   double perturbed_hold_time = 0.3;            // s; those are not shaken
+  double least_quality = 0.5;                  // of a proved grasp
 
   bool IsValid(std::string* error) const;
 };
@@ -33,7 +34,7 @@ struct ProvedGrasps {
   GraspSampling sampling;               // its grasps are the candidates
   double friction = 0.0;                // of the pair of object and finger, in the trials
   int tried = 0;                        // candidates in Bullet
-  int held_in_bullet = 0;               // of these
+  int held_in_bullet = 0;               // of these, with the least quality
   int held_in_both = 0;                 // and in MuJoCo
   double coverage = 0.0;                // GraspCoverage of the candidates
   std::map<std::string, int> failures;  // reasons in Bullet, without their figures

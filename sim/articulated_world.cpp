@@ -238,7 +238,7 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
     collider->setFriction(FrictionOf(link, static_cast<int>(i), placement));
     collider->setRestitution(link.restitution);
     collider->setRollingFriction(link.rolling_friction);
-    collider->setSpinningFriction(link.rolling_friction);
+    collider->setSpinningFriction(link.torsional_friction.value_or(link.rolling_friction));
     collider->setContactProcessingThreshold(1e30);
     collider->setUserIndex(static_cast<int>(bodies.size()));
     collider->setUserIndex2(static_cast<int>(i));

@@ -105,6 +105,7 @@ class BulletGraspRigSource : public GraspRigSource {
       : force_(gripper.force), options_(options) {
     object.friction = options.friction;  // Bullet multiplies, and the gripper's is 1
     object.rolling_friction = 0.0;
+    object.torsional_friction = 0.0;
     object_ = std::make_shared<PreparedBody>(ArticulatedBodyFrom(object));
     gripper_ = std::make_shared<PreparedBody>(GripperBody(gripper, kDrivenPalmMass, 0.0));
   }

@@ -50,6 +50,7 @@ bool GripperModel::IsValid(std::string* error) const {
   if (!(force > 0.0) || force > 1e4) return fail("force must be in (0, 10000] N");
   if (!(finger_mass > 0.0)) return fail("finger_mass must be positive");
   if (!(friction > 0.0)) return fail("friction must be positive");
+  if (!(torsion >= 0.0)) return fail("torsion must not be negative");
   return true;
 }
 
@@ -76,7 +77,10 @@ ArticulatedBody GripperBody(const GripperModel& gripper, double palm_mass, doubl
     joints.push_back(FingerJoint(i, 0.5 * gripper.max_opening, finger_damping));
     body.links.push_back(std::move(finger));
   }
-  for (RigidBody& link : body.links) link.friction = 1.0;
+  for (RigidBody& link : body.links) {
+    link.friction = 1.0;
+    link.torsional_friction = link.name == "palm" ? 0.0 : gripper.torsion;
+  }
   body.kinematics = std::make_shared<assets::KinematicModel>(gripper.name, links, joints);
   return body;
 }

@@ -15,7 +15,7 @@ namespace simwright::sim {
 // finger.
 struct GripperModel {
   std::string name;
-  std::vector<core::TriangleMesh> palm;  // convex parts
+  std::vector<core::TriangleMesh> palm;                    // convex parts
   std::vector<std::optional<Capsule>> palm_capsules = {};  // as RigidBody::capsules
   // Convex parts at full opening. fingers[0] closes along -y, fingers[1] along +y.
   std::array<std::vector<core::TriangleMesh>, 2> fingers;
@@ -23,6 +23,9 @@ struct GripperModel {
   double force = 0.0;         // N of each finger
   double finger_mass = 0.03;  // kg
   double friction = 1.0;      // of the pads; the coefficient of a pair is the product of both
+  // m: lever arm of the friction that resists turning about the normal of a contact. A soft pad
+  // touches a round object in a patch; at an even pressure it is 2/3 of the patch's radius.
+  double torsion = 0.003;
 
   bool IsValid(std::string* error) const;
 };
