@@ -21,10 +21,14 @@ constexpr double kPalmArmature = 1e5;  // kg and kg m^2: loads do not move the p
 // (force / inertia) * (time constant)^2: fingers of 30 g alone would sink in by millimetres.
 constexpr double kFingerArmature = 0.5;
 constexpr double kContactTime = 0.005;  // s, as in the MJCF of assets
-// MuJoCo's friction is regularised: at a ratio of 10, objects of 150 g creep by millimetres in two
-// seconds. At the default impedance of 0.9, light objects sink in by a millimetre.
-constexpr double kFrictionImpedanceRatio = 100.0;
+// MuJoCo's friction is regularised: without iterations against slip, objects of 150 g creep by
+// millimetres in two seconds. At the default impedance of 0.9, light objects sink in by a
+// millimetre.
+constexpr double kFrictionImpedanceRatio = 10.0;
+constexpr int kNoSlipIterations = 4;
 constexpr double kImpedance = 0.98;
+// kg and s: an object that is lighter than the first is stepped by the second, else by the third.
+constexpr double kLight = 0.05, kLightStep = 0.001, kStep = 0.002;
 constexpr int kGripperBody = 0, kObjectBody = 1;  // in the list of placements
 
 // The compiled model, and data that finished rigs return for the next ones.
@@ -36,6 +40,7 @@ class GraspModel {
     model.opt.gravity[2] = 0.0;
     model.opt.cone = mjCONE_ELLIPTIC;
     model.opt.impratio = kFrictionImpedanceRatio;
+    model.opt.noslip_iterations = kNoSlipIterations;
     model.opt.enableflags |= mjENBL_MULTICCD;
     palm_ = Find(mjOBJ_BODY, MjcfName("link", kGripperBody, kPalmLink));
     object_ = Find(mjOBJ_BODY, MjcfName("link", kObjectBody, 0));
@@ -92,8 +97,12 @@ class GraspModel {
     const ArticulatedBody body = ArticulatedBodyFrom(object);
     const auto identity = Eigen::Isometry3d::Identity();
     const std::filesystem::path path = folder_.path() / "grasp.xml";
-    core::WriteFile(path, BodiesMjcf({{&hand, identity, false, {}}, {&body, identity, false, {}}},
-                                     {.contacts = 300, .rows = 1000, .floor = true}));
+    core::WriteFile(path,
+                    BodiesMjcf({{&hand, identity, false, {}}, {&body, identity, false, {}}},
+                               {.time_step = object.inertial.mass < kLight ? kLightStep : kStep,
+                                .contacts = 300,
+                                .rows = 1000,
+                                .floor = true}));
     return path;
   }
 
