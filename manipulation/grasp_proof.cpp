@@ -53,7 +53,8 @@ class GraspProver {
         seed_(seed),
         trial_(WithFriction(options.trial, friction)),
         perturbed_(trial_),
-        bullet_(sim::GraspEngine::kBullet, gripper, object.body, trial_),
+        bullet_(sim::GraspEngine::kBullet, gripper, object.body,
+                WithMargin(trial_, options.margin_share)),
         mujoco_(sim::GraspEngine::kMujoco, gripper, object.body, trial_) {
     perturbed_.shake = false;
     perturbed_.hold_time = options.perturbed_hold_time;
@@ -79,6 +80,12 @@ class GraspProver {
  private:
   static sim::GraspTrialOptions WithFriction(sim::GraspTrialOptions trial, double friction) {
     trial.friction = friction;
+    return trial;
+  }
+
+  static sim::GraspTrialOptions WithMargin(sim::GraspTrialOptions trial, double share) {
+    trial.slip_limit *= share;
+    trial.turn_limit *= share;
     return trial;
   }
 
@@ -133,6 +140,7 @@ bool GraspProofOptions::IsValid(std::string* error) const {
   if (!(perturbation_distance >= 0.0) || !(perturbation_angle >= 0.0)) {
     return fail("a perturbation must not be negative");
   }
+  if (!(margin_share > 0.0) || margin_share > 1.0) return fail("margin_share must be 0 to 1");
   if (!(least_quality >= 0.0) || least_quality > 1.0) return fail("least_quality must be 0 to 1");
   if (!(perturbed_hold_time >= 0.0)) return fail("perturbed_hold_time must not be negative");
   return sampler.IsValid(error) && trial.IsValid(error);

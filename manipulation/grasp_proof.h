@@ -25,6 +25,9 @@ struct GraspProofOptions {
   int perturbations = 8;                       // trials per grasp
   double perturbed_hold_time = 0.3;            // s; those are not shaken
   double least_quality = 0.5;                  // of a proved grasp
+  // The share of the trial's limits on slip and turn that a grasp may use in Bullet, where it is
+  // chosen: others hold by chance, and not in another engine.
+  double margin_share = 0.6;
 
   bool IsValid(std::string* error) const;
 };

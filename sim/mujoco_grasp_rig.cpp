@@ -20,7 +20,7 @@ constexpr double kPalmArmature = 1e5;  // kg and kg m^2: loads do not move the p
 // kg, the reflected inertia of a finger's drive. Contacts are springs that a load deforms by
 // (force / inertia) * (time constant)^2: fingers of 30 g alone would sink in by millimetres.
 constexpr double kFingerArmature = 0.5;
-constexpr double kContactTime = 0.005;  // s, as in the MJCF of assets
+constexpr double kContactSteps = 2.5;  // time constant of contacts, 5 ms as in the MJCF of assets
 // MuJoCo's friction is regularised: without iterations against slip, objects of 150 g creep by
 // millimetres in two seconds. At the default impedance of 0.9, light objects sink in by a
 // millimetre.
@@ -28,6 +28,7 @@ constexpr double kFrictionImpedanceRatio = 10.0;
 constexpr int kNoSlipIterations = 4;
 constexpr double kImpedance = 0.98;
 // kg and s: an object that is lighter than the first is stepped by the second, else by the third.
+// The depth to which a force sinks in is inversely proportional to the mass.
 constexpr double kLight = 0.05, kLightStep = 0.001, kStep = 0.002;
 constexpr int kGripperBody = 0, kObjectBody = 1;  // in the list of placements
 
@@ -108,7 +109,7 @@ class GraspModel {
 
   void SetContacts(double friction, double torsion, mjModel* model) const {
     for (int geom = 0; geom < model->ngeom; ++geom) {
-      model->geom_solref[mjNREF * geom] = kContactTime;
+      model->geom_solref[mjNREF * geom] = kContactSteps * model->opt.timestep;
       model->geom_solref[mjNREF * geom + 1] = 1.0;
       model->geom_solimp[mjNIMP * geom] = kImpedance;
       model->geom_solimp[mjNIMP * geom + 1] = 0.5 * (1.0 + kImpedance);
