@@ -186,8 +186,11 @@ std::string Hdf5Group::TextAttribute(const std::string& name) const {
 template <typename T>
 void Hdf5Group::Write(const std::string& name, const std::vector<std::size_t>& shape,
                       const T* values, const Hdf5Storage& storage) {
-  if (shape.empty() || shape.size() > kMostDimensions) {
-    throw Error("a dataset has 1 to 32 dimensions", At(name));
+  if (shape.size() > kMostDimensions) {
+    throw Error("a dataset has at most 32 dimensions", At(name));
+  }
+  if (shape.empty() && storage.rows_per_chunk > 0) {
+    throw Error("a scalar has no chunks", At(name));
   }
   const std::vector<hsize_t> sizes(shape.begin(), shape.end());
   const auto rank = static_cast<int>(sizes.size());
@@ -246,6 +249,24 @@ void Hdf5Group::WriteTexts(const std::string& name, const std::vector<std::strin
                                   H5Dclose, "cannot make the dataset", At(name));
   if (count > 0 &&
       H5Dwrite(dataset->id(), type->id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0) {
+    Fail("cannot write the dataset", At(name));
+  }
+}
+
+void Hdf5Group::WriteText(const std::string& name, const std::string& text) {
+  if (text.find('\0') != std::string::npos) throw Error("a string contains a zero byte", At(name));
+  const auto type = Handle::Of(H5Tcopy(H5T_C_S1), H5Tclose, "no type", At(name));
+  H5Tset_size(type->id(), H5T_VARIABLE);
+  H5Tset_cset(type->id(), H5T_CSET_UTF8);
+  const auto space = Handle::Of(H5Screate(H5S_SCALAR), H5Sclose, "no space", At(name));
+  const auto layout =
+      Handle::Of(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "no properties", At(name));
+  H5Pset_obj_track_times(layout->id(), false);
+  const auto dataset = Handle::Of(H5Dcreate2(group_->id(), name.c_str(), type->id(), space->id(),
+                                             H5P_DEFAULT, layout->id(), H5P_DEFAULT),
+                                  H5Dclose, "cannot make the dataset", At(name));
+  const char* pointer = text.c_str();
+  if (H5Dwrite(dataset->id(), type->id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &pointer) < 0) {
     Fail("cannot write the dataset", At(name));
   }
 }

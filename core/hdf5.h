@@ -34,14 +34,16 @@ class Hdf5Group {
   std::int64_t IntegerAttribute(const std::string& name) const;
   std::string TextAttribute(const std::string& name) const;
 
-  // Writes a dataset. `values` holds as many numbers as the product of `shape`, which has 1 to 32
-  // dimensions.
+  // Writes a dataset. `values` holds as many numbers as the product of `shape`, which has up to 32
+  // dimensions; without any, the dataset is a scalar.
   template <typename T>
   void Write(const std::string& name, const std::vector<std::size_t>& shape, const T* values,
              const Hdf5Storage& storage = {});
   // Writes fixed-length strings, padded with zeros (numpy's type S). No string may be empty or
   // contain a zero byte.
   void WriteTexts(const std::string& name, const std::vector<std::string>& texts);
+  // Writes one string as a scalar: UTF-8, variable length.
+  void WriteText(const std::string& name, const std::string& text);
 
   std::vector<std::size_t> Shape(const std::string& name) const;
   // Reads a dataset of at most `limit` bytes: integers from integers, floating point from whichever

@@ -238,7 +238,7 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
     collider->setFriction(FrictionOf(link, static_cast<int>(i), placement));
     collider->setRestitution(link.restitution);
     collider->setRollingFriction(link.rolling_friction);
-    collider->setSpinningFriction(link.rolling_friction);
+    collider->setSpinningFriction(link.torsional_friction.value_or(link.rolling_friction));
     collider->setContactProcessingThreshold(1e30);
     collider->setUserIndex(static_cast<int>(bodies.size()));
     collider->setUserIndex2(static_cast<int>(i));
@@ -381,6 +381,17 @@ void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from
   loaded.multi->setBaseVel(btVector3(0, 0, 0));
   loaded.multi->setBaseOmega(btVector3(0, 0, 0));
   bullet_->UpdatePoses(&loaded);
+}
+
+void ArticulatedWorld::SetRootVelocity(int body, const Eigen::Vector3d& linear,
+                                       const Eigen::Vector3d& angular) {
+  btMultiBody& multi = *bullet_->Body(body).multi;
+  multi.setBaseVel(ToBullet(linear));
+  multi.setBaseOmega(ToBullet(angular));
+}
+
+void ArticulatedWorld::SetGravity(const Eigen::Vector3d& gravity) {
+  bullet_->world->setGravity(ToBullet(gravity));
 }
 
 void ArticulatedWorld::Drive(int body, int joint, double velocity, double max_force) {

@@ -85,6 +85,13 @@ class ArticulatedWorld {
   void SetPosition(int body, int joint, double position);
   void SetRootPose(int body, const Eigen::Isometry3d& world_from_root);
 
+  // Sets the velocity of the root of a body that is not fixed: linear (m/s, of its centre of mass)
+  // and angular (rad/s), world frame.
+  void SetRootVelocity(int body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular);
+
+  // Sets gravity (m/s^2) from the next step on.
+  void SetGravity(const Eigen::Vector3d& gravity);
+
   // Drives the joint at `velocity` (rad/s or m/s) with at most `max_force` (N m or N), which
   // includes the joint's friction. Velocity 0 brakes.
   void Drive(int body, int joint, double velocity, double max_force);

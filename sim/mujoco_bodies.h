@@ -5,18 +5,9 @@
 
 #include <Eigen/Geometry>
 
-#include "sim/articulated_body.h"
+#include "sim/bodies_mjcf.h"
 
 namespace simwright::sim {
-
-// A body and its placement, as Placement in an ArticulatedWorld.
-struct MujocoPlacement {
-  const ArticulatedBody* body = nullptr;
-  Eigen::Isometry3d world_from_root = Eigen::Isometry3d::Identity();
-  bool fixed = true;
-  // The motor force limits (N m or N) by joint; 0: no motor.
-  std::vector<double> motor_forces = {};
-};
 
 // The same bodies in MuJoCo, above the floor, for speed comparisons: links, inertials, capsules,
 // convex parts, joints with their friction, damping and limits, and mimic joints; links of one body

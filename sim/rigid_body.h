@@ -30,6 +30,9 @@ struct RigidBody {
   // The capsule of parts[i], if it is one: cheaper to collide, and round. May be shorter than
   // `parts`.
   std::vector<std::optional<Capsule>> capsules = {};
+  // m: lever arm of the resistance to turning about the normal of a contact, over the friction
+  // force; none: rolling_friction. ArticulatedWorld only.
+  std::optional<double> torsional_friction = std::nullopt;
 };
 
 RigidBody BodyFromAsset(const assets::Asset& asset);

@@ -1,0 +1,173 @@
+#include "manipulation/grasp_file.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/error.h"
+
+namespace simwright::manipulation {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr const char* kGraspFormat = "simwright_grasps";
+constexpr std::uint64_t kMostBytes = 256ull << 20;
+constexpr double kRigid = 1e-6;  // of a rotation matrix
+
+core::OrderedJson VectorJson(const Vector3d& vector) {
+  return core::OrderedJson::array({vector.x(), vector.y(), vector.z()});
+}
+
+core::OrderedJson MatrixJson(const Isometry3d& pose) {
+  core::OrderedJson rows = core::OrderedJson::array();
+  for (int row = 0; row < 4; ++row) {
+    const Eigen::RowVector4d values = pose.matrix().row(row);
+    rows.push_back({values[0], values[1], values[2], values[3]});
+  }
+  return rows;
+}
+
+Isometry3d PoseFrom(const core::JsonField& field) {
+  Eigen::Matrix4d matrix;
+  const std::vector<core::JsonField> rows = field.Elements(4);
+  for (int row = 0; row < 4; ++row) {
+    matrix.row(row) = rows[static_cast<size_t>(row)].Vector<4>().transpose();
+  }
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  const bool rigid = (rotation * rotation.transpose()).isIdentity(kRigid) &&
+                     rotation.determinant() > 0.0 &&
+                     matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), kRigid);
+  if (!rigid) field.FailAs("a rigid transform of 4 x 4");
+  Isometry3d pose(Eigen::Quaterniond(rotation).normalized());
+  pose.translation() = matrix.topRightCorner<3, 1>();
+  return pose;
+}
+
+core::OrderedJson GraspArrays(const GraspSet& set) {
+  core::OrderedJson transforms = core::OrderedJson::array(), held = transforms;
+  core::OrderedJson quality = transforms, tools = transforms, widths = transforms;
+  core::OrderedJson openings = transforms, contacts = transforms, normals = transforms;
+  for (const Grasp& grasp : set.grasps) {
+    transforms.push_back(MatrixJson(GraspGenPose(set, grasp)));
+    held.push_back(true);
+    quality.push_back(grasp.quality);
+    tools.push_back(MatrixJson(grasp.object_from_tool));
+    widths.push_back(grasp.width);
+    openings.push_back(grasp.opening);
+    contacts.push_back({VectorJson(grasp.contacts[0]), VectorJson(grasp.contacts[1])});
+    normals.push_back({VectorJson(grasp.normals[0]), VectorJson(grasp.normals[1])});
+  }
+  return {{"transforms", transforms}, {"object_in_gripper", held}, {"quality", quality},
+          {"tool_transforms", tools}, {"width_m", widths},         {"opening_m", openings},
+          {"contacts_m", contacts},   {"normals", normals}};
+}
+
+}  // namespace
+
+GraspSet MakeGraspSet(const GraspObject& object, const std::string& mesh,
+                      const ParallelGripper& gripper, const ProvedGrasps& proved) {
+  GraspSet set;
+  set.object = object.name;
+  set.mesh = mesh;
+  set.gripper = gripper.model.name;
+  set.base_link = gripper.base_link;
+  set.tool_from_base = gripper.tool_from_base;
+  set.max_opening = gripper.model.max_opening;
+  set.force = gripper.model.force;
+  set.friction = proved.friction;
+  set.joints = gripper.joints;
+  set.grasps = proved.grasps;
+  set.tried = proved.tried;
+  set.held_in_bullet = proved.held_in_bullet;
+  set.held_in_both = proved.held_in_both;
+  set.coverage = proved.coverage;
+  return set;
+}
+
+Isometry3d GraspGenPose(const GraspSet& set, const Grasp& grasp) {
+  Isometry3d pose = grasp.object_from_tool;
+  pose.translate(Vector3d(0.0, 0.0, set.tool_from_base.translation().z()));
+  pose.rotate(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitZ()));
+  return pose;
+}
+
+Isometry3d BaseLinkPose(const GraspSet& set, const Grasp& grasp) {
+  return grasp.object_from_tool * set.tool_from_base;
+}
+
+core::OrderedJson GraspSetJson(const GraspSet& set) {
+  core::OrderedJson joints = core::OrderedJson::array();
+  for (const ParallelGripper::Joint& joint : set.joints) {
+    joints.push_back({{"name", joint.name}, {"open", joint.open}, {"closing", joint.closing}});
+  }
+  core::OrderedJson json;
+  json["format"] = kGraspFormat;
+  json["format_version"] = 1;
+  json["object"] = {{"name", set.object}, {"file", set.mesh}, {"scale", 1.0}};
+  json["gripper"] = {{"name", set.gripper},
+                     {"base_link", set.base_link},
+                     {"tool_from_base", MatrixJson(set.tool_from_base)},
+                     {"max_opening_m", set.max_opening},
+                     {"force_n", set.force},
+                     {"joints", joints}};
+  json["proof"] = {{"engines", {"bullet", "mujoco"}},
+                   {"friction", set.friction},
+                   {"tried", set.tried},
+                   {"held_in_bullet", set.held_in_bullet},
+                   {"held_in_both", set.held_in_both},
+                   {"coverage", set.coverage}};
+  json["grasps"] = GraspArrays(set);
+  return json;
+}
+
+GraspSet ReadGraspSet(const std::filesystem::path& file) {
+  const core::JsonDocument document =
+      core::JsonDocument::Read(file, kMostBytes, "write it again with `simwright grasps`");
+  const core::JsonField root = document.root();
+  if (root.TextOr("format", "") != kGraspFormat || root.IntOr("format_version", 0) != 1) {
+    root.Fail("is not a grasps.json of version 1");
+  }
+  GraspSet set;
+  set.object = root["object"]["name"].Name();
+  set.mesh = root["object"]["file"].Text();
+  const core::JsonField gripper = root["gripper"];
+  set.gripper = gripper["name"].Name();
+  set.base_link = gripper["base_link"].Name();
+  set.tool_from_base = PoseFrom(gripper["tool_from_base"]);
+  set.max_opening = gripper["max_opening_m"].PositiveNumber();
+  set.force = gripper["force_n"].PositiveNumber();
+  for (const core::JsonField& joint : gripper["joints"].Elements()) {
+    set.joints.push_back({joint["name"].Name(), joint["open"].Number(), joint["closing"].Number()});
+  }
+  const core::JsonField proof = root["proof"], grasps = root["grasps"];
+  set.friction = proof["friction"].NumberWithin(0.0);
+  set.tried = proof["tried"].Int(0);
+  set.held_in_bullet = proof["held_in_bullet"].Int(0);
+  set.held_in_both = proof["held_in_both"].Int(0);
+  set.coverage = proof["coverage"].NumberWithin(0.0, 1.0);
+  const std::vector<core::JsonField> tools = grasps["tool_transforms"].Elements();
+  const std::vector<double> quality = grasps["quality"].Numbers(tools.size());
+  const std::vector<double> widths = grasps["width_m"].Numbers(tools.size());
+  const std::vector<double> openings = grasps["opening_m"].Numbers(tools.size());
+  const std::vector<core::JsonField> contacts = grasps["contacts_m"].Elements(tools.size());
+  const std::vector<core::JsonField> normals = grasps["normals"].Elements(tools.size());
+  for (size_t i = 0; i < tools.size(); ++i) {
+    Grasp grasp;
+    grasp.object_from_tool = PoseFrom(tools[i]);
+    grasp.quality = quality[i];
+    grasp.width = widths[i];
+    grasp.opening = openings[i];
+    const std::vector<core::JsonField> points = contacts[i].Elements(2);
+    const std::vector<core::JsonField> outward = normals[i].Elements(2);
+    for (size_t c = 0; c < 2; ++c) {
+      grasp.contacts[c] = points[c].Vector<3>();
+      grasp.normals[c] = outward[c].Vector<3>();
+    }
+    set.grasps.push_back(grasp);
+  }
+  return set;
+}
+
+}  // namespace simwright::manipulation

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include <Eigen/Geometry>
+
+#include "sim/gripper_model.h"
+
+namespace simwright::sim {
+
+// What a grasp trial sets up in an engine.
+struct GraspRigOptions {
+  double friction = 0.5;      // of the object against fingers, palm and floor
+  double finger_speed = 0.1;  // m/s of each finger while nothing is between them
+};
+
+// The state at the start of a trial. All velocities are zero, and there is no gravity.
+struct GraspRigStart {
+  Eigen::Isometry3d world_from_tool = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d world_from_object = Eigen::Isometry3d::Identity();
+  double closing = 0.0;  // m, position of both finger joints
+  bool floor = false;    // the object collides with the floor z = 0; the gripper never does
+};
+
+// The contacts of the object after a step.
+struct GraspContacts {
+  std::array<bool, 2> fingers = {false, false};  // true: the finger touches it
+  bool palm = false;
+  double penetration = 0.0;  // m, the deepest of the gripper
+};
+
+// A gripper that moves along a given path regardless of loads, with fingers of limited force, and
+// an object, in a physics engine. One thread per rig.
+class GraspRig {
+ public:
+  virtual ~GraspRig() = default;
+
+  // Sets gravity (m/s^2, along -z) from the next step on.
+  virtual void SetGravity(double gravity) = 0;
+  // Moves the palm during the next step so that the tool frame ends at `world_from_tool`.
+  virtual void MovePalm(const Eigen::Isometry3d& world_from_tool) = 0;
+  // Closes the fingers, or opens them, with the gripper's force.
+  virtual void DriveFingers(bool close) = 0;
+  virtual void Step() = 0;
+
+  virtual double time_step() const = 0;                       // s
+  virtual Eigen::Isometry3d ToolPose() const = 0;             // world_from_tool
+  virtual Eigen::Isometry3d ObjectPose() const = 0;           // world_from_object
+  virtual std::array<double, 2> FingerPositions() const = 0;  // m, of the joints
+  virtual GraspContacts Contacts() const = 0;
+};
+
+// The shapes of a gripper and an object, prepared for an engine. Constant; rigs of any number of
+// threads share it and must not outlive it.
+class GraspRigSource {
+ public:
+  virtual ~GraspRigSource() = default;
+  virtual std::unique_ptr<GraspRig> Make(const GraspRigStart& start) const = 0;
+};
+
+// Throw core::Error for an invalid gripper, and for an object without parts or mass or that the
+// engine rejects.
+std::unique_ptr<GraspRigSource> BulletGraspRigs(const GripperModel& gripper,
+                                                const RigidBody& object,
+                                                const GraspRigOptions& options);
+std::unique_ptr<GraspRigSource> MujocoGraspRigs(const GripperModel& gripper,
+                                                const RigidBody& object,
+                                                const GraspRigOptions& options);
+
+}  // namespace simwright::sim

@@ -1,0 +1,262 @@
+#include <algorithm>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <mujoco/mujoco.h>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "sim/bodies_mjcf.h"
+#include "sim/grasp_rig.h"
+#include "sim/mujoco_scene.h"
+
+namespace simwright::sim {
+namespace {
+
+constexpr double kPalmMass = 1.0;      // kg
+constexpr double kPalmArmature = 1e5;  // kg and kg m^2: loads do not move the palm
+// kg, the reflected inertia of a finger's drive. Contacts are springs that a load deforms by
+// (force / inertia) * (time constant)^2: fingers of 30 g alone would sink in by millimetres.
+constexpr double kFingerArmature = 0.5;
+constexpr double kContactSteps = 2.5;  // time constant of contacts, 5 ms as in the MJCF of assets
+// MuJoCo's friction is regularised: without iterations against slip, objects of 150 g creep by
+// millimetres in two seconds. At the default impedance of 0.9, light objects sink in by a
+// millimetre.
+constexpr double kFrictionImpedanceRatio = 10.0;
+constexpr int kNoSlipIterations = 4;
+constexpr double kImpedance = 0.98;
+// kg and s: an object that is lighter than the first is stepped by the second, else by the third.
+// The depth to which a force sinks in is inversely proportional to the mass.
+constexpr double kLight = 0.05, kLightStep = 0.001, kStep = 0.002;
+constexpr int kGripperBody = 0, kObjectBody = 1;  // in the list of placements
+
+// The compiled model, and data that finished rigs return for the next ones.
+class GraspModel {
+ public:
+  GraspModel(const GripperModel& gripper, const RigidBody& object, const GraspRigOptions& options)
+      : force_(gripper.force), scene_(File(gripper, object, options), {}, kGround) {
+    mjModel& model = *scene_.model();
+    model.opt.gravity[2] = 0.0;
+    model.opt.cone = mjCONE_ELLIPTIC;
+    model.opt.impratio = kFrictionImpedanceRatio;
+    model.opt.noslip_iterations = kNoSlipIterations;
+    model.opt.enableflags |= mjENBL_MULTICCD;
+    palm_ = Find(mjOBJ_BODY, MjcfName("link", kGripperBody, kPalmLink));
+    object_ = Find(mjOBJ_BODY, MjcfName("link", kObjectBody, 0));
+    for (size_t i = 0; i < 2; ++i) {
+      bodies_[i] = Find(mjOBJ_BODY, MjcfName("link", kGripperBody, kFirstFingerLink + i));
+      joints_[i] = Find(mjOBJ_JOINT, MjcfName("joint", kGripperBody, i));
+      model.dof_armature[model.jnt_dofadr[joints_[i]]] = kFingerArmature;
+    }
+    for (int i = 0; i < 6; ++i) model.dof_armature[Dof(palm_) + i] = kPalmArmature;
+    SetContacts(options.friction, gripper.torsion, &model);
+    mj_setConst(&model, scene_.data());
+  }
+  ~GraspModel() {
+    for (mjData* data : spare_) mj_deleteData(data);
+  }
+  GraspModel(const GraspModel&) = delete;
+  GraspModel& operator=(const GraspModel&) = delete;
+
+  const mjModel* model() const { return scene_.model(); }
+  double force() const { return force_; }
+  int palm() const { return palm_; }
+  int object() const { return object_; }
+  int finger(size_t index) const { return bodies_[index]; }
+  int joint(size_t index) const { return joints_[index]; }
+  int Dof(int body) const { return model()->jnt_dofadr[model()->body_jntadr[body]]; }
+  int Position(int body) const { return model()->jnt_qposadr[model()->body_jntadr[body]]; }
+
+  mjData* Take() const {
+    mjData* data = nullptr;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!spare_.empty()) {
+        data = spare_.back();
+        spare_.pop_back();
+      }
+    }
+    if (data == nullptr) data = mj_makeData(model());
+    mj_resetData(model(), data);
+    return data;
+  }
+  void Return(mjData* data) const {
+    const std::lock_guard lock(mutex_);
+    spare_.push_back(data);
+  }
+
+ private:
+  static constexpr MujocoScene::Ground kGround = MujocoScene::Ground::kOwn;
+
+  std::filesystem::path File(const GripperModel& gripper, const RigidBody& object,
+                             const GraspRigOptions& options) const {
+    // The damping limits the speed: at finger_speed it takes up the whole force.
+    const ArticulatedBody hand =
+        GripperBody(gripper, kPalmMass, gripper.force / options.finger_speed);
+    const ArticulatedBody body = ArticulatedBodyFrom(object);
+    const auto identity = Eigen::Isometry3d::Identity();
+    const std::filesystem::path path = folder_.path() / "grasp.xml";
+    core::WriteFile(path,
+                    BodiesMjcf({{&hand, identity, false, {}}, {&body, identity, false, {}}},
+                               {.time_step = object.inertial.mass < kLight ? kLightStep : kStep,
+                                .contacts = 300,
+                                .rows = 1000,
+                                .floor = true}));
+    return path;
+  }
+
+  void SetContacts(double friction, double torsion, mjModel* model) const {
+    for (int geom = 0; geom < model->ngeom; ++geom) {
+      model->geom_solref[mjNREF * geom] = kContactSteps * model->opt.timestep;
+      model->geom_solref[mjNREF * geom + 1] = 1.0;
+      model->geom_solimp[mjNIMP * geom] = kImpedance;
+      model->geom_solimp[mjNIMP * geom + 1] = 0.5 * (1.0 + kImpedance);
+      const int body = model->geom_bodyid[geom];
+      if (body == 0) continue;  // the floor
+      model->geom_friction[3 * geom] = friction;
+      if (body == object_) continue;
+      model->geom_conaffinity[geom] &= ~1;  // passes through the floor
+      if (body == palm_) continue;
+      model->geom_condim[geom] = 4;  // with torsional friction, of which MuJoCo takes the greater
+      model->geom_friction[3 * geom + 1] = friction * torsion;
+    }
+  }
+
+  int Find(int type, const std::string& name) const {
+    const int id = mj_name2id(scene_.model(), type, name.c_str());
+    if (id < 0) throw core::Error("the grasp trial has no '" + name + "'");
+    return id;
+  }
+
+  core::TemporaryFolder folder_;
+  double force_;
+  MujocoScene scene_;
+  int palm_ = -1, object_ = -1;
+  std::array<int, 2> bodies_ = {-1, -1}, joints_ = {-1, -1};
+  mutable std::mutex mutex_;
+  mutable std::vector<mjData*> spare_;
+};
+
+void WritePose(const Eigen::Isometry3d& pose, double* q) {
+  const Eigen::Quaterniond turn(pose.linear());
+  Eigen::Map<Eigen::Vector3d> position(q);
+  position = pose.translation();
+  q[3] = turn.w();
+  q[4] = turn.x();
+  q[5] = turn.y();
+  q[6] = turn.z();
+}
+
+Eigen::Isometry3d ReadPose(const double* q) {
+  Eigen::Isometry3d pose(Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized());
+  pose.translation() = Eigen::Map<const Eigen::Vector3d>(q);
+  return pose;
+}
+
+class MujocoGraspRig : public GraspRig {
+ public:
+  MujocoGraspRig(const GraspModel& compiled, const GraspRigStart& start)
+      : compiled_(compiled),
+        model_(compiled.model()),
+        data_(compiled.Take()),
+        tool_(start.world_from_tool),
+        target_(start.world_from_tool) {
+    WritePose(tool_, data_->qpos + compiled_.Position(compiled_.palm()));
+    WritePose(start.world_from_object, data_->qpos + compiled_.Position(compiled_.object()));
+    for (size_t i = 0; i < 2; ++i) {
+      data_->qpos[model_->jnt_qposadr[compiled_.joint(i)]] = start.closing;
+    }
+    mj_forward(model_, data_);
+  }
+  ~MujocoGraspRig() override { compiled_.Return(data_); }
+
+  void SetGravity(double gravity) override { gravity_ = gravity; }
+  void MovePalm(const Eigen::Isometry3d& target) override { target_ = target; }
+
+  void DriveFingers(bool close) override {
+    for (size_t i = 0; i < 2; ++i) {
+      data_->qfrc_applied[model_->jnt_dofadr[compiled_.joint(i)]] =
+          close ? compiled_.force() : -compiled_.force();
+    }
+  }
+
+  void Step() override {
+    const double step = model_->opt.timestep;
+    // The palm is placed exactly on its path; its velocity is what contacts feel.
+    WritePose(tool_, data_->qpos + compiled_.Position(compiled_.palm()));
+    const Eigen::Matrix3d relative = tool_.linear().transpose() * target_.linear();
+    const Eigen::AngleAxisd turn(relative);
+    double* velocity = data_->qvel + compiled_.Dof(compiled_.palm());
+    Eigen::Map<Eigen::Vector3d> linear(velocity), angular(velocity + 3);
+    linear = (target_.translation() - tool_.translation()) / step;
+    angular = turn.angle() / step * turn.axis();  // MuJoCo takes it in the body's frame
+    // Weight alone: MuJoCo keeps gravity in the shared model.
+    const int object = compiled_.object();
+    data_->xfrc_applied[6 * object + 2] = -gravity_ * model_->body_mass[object];
+    mj_step(model_, data_);
+    tool_ = target_;
+  }
+
+  double time_step() const override { return model_->opt.timestep; }
+  Eigen::Isometry3d ToolPose() const override { return tool_; }
+  Eigen::Isometry3d ObjectPose() const override {
+    return ReadPose(data_->qpos + compiled_.Position(compiled_.object()));
+  }
+  std::array<double, 2> FingerPositions() const override {
+    return {data_->qpos[model_->jnt_qposadr[compiled_.joint(0)]],
+            data_->qpos[model_->jnt_qposadr[compiled_.joint(1)]]};
+  }
+
+  GraspContacts Contacts() const override {
+    GraspContacts result;
+    for (int i = 0; i < data_->ncon; ++i) {
+      const mjContact& contact = data_->contact[i];
+      const int a = model_->geom_bodyid[contact.geom1], b = model_->geom_bodyid[contact.geom2];
+      if (a != compiled_.object() && b != compiled_.object()) continue;
+      const int other = a == compiled_.object() ? b : a;
+      if (other == 0) continue;  // the floor
+      result.penetration = std::max(result.penetration, -contact.dist);
+      if (contact.dist > 0.0) continue;
+      if (other == compiled_.palm()) result.palm = true;
+      for (size_t f = 0; f < 2; ++f) {
+        if (other == compiled_.finger(f)) result.fingers[f] = true;
+      }
+    }
+    return result;
+  }
+
+ private:
+  const GraspModel& compiled_;
+  const mjModel* model_;
+  mjData* data_;
+  Eigen::Isometry3d tool_, target_;  // world_from_tool, now and after the next step
+  double gravity_ = 0.0;
+};
+
+class MujocoGraspRigSource : public GraspRigSource {
+ public:
+  MujocoGraspRigSource(const GripperModel& gripper, const RigidBody& object,
+                       const GraspRigOptions& options)
+      : compiled_(gripper, object, options) {}
+  std::unique_ptr<GraspRig> Make(const GraspRigStart& start) const override {
+    return std::make_unique<MujocoGraspRig>(compiled_, start);
+  }
+
+ private:
+  GraspModel compiled_;
+};
+
+}  // namespace
+
+std::unique_ptr<GraspRigSource> MujocoGraspRigs(const GripperModel& gripper,
+                                                const RigidBody& object,
+                                                const GraspRigOptions& options) {
+  if (object.parts.empty() || !(object.inertial.mass > 0.0)) {
+    throw core::Error("an object needs collision parts and a mass", object.name);
+  }
+  return std::make_unique<MujocoGraspRigSource>(gripper, object, options);
+}
+
+}  // namespace simwright::sim

@@ -1,0 +1,221 @@
+#include "workflows/grasps/grasp_formats.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "assets/usd_prim.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/hdf5.h"
+
+namespace simwright::workflows {
+namespace fs = std::filesystem;
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using manipulation::Grasp;
+using manipulation::GraspSet;
+
+struct GraspFormatRow {
+  GraspFormat format;
+  const char* name;
+  std::vector<const char*> extensions;
+};
+
+const std::vector<GraspFormatRow>& GraspFormatRows() {
+  static const std::vector<GraspFormatRow> rows = {
+      {GraspFormat::kJson, "json", {".json"}},
+      {GraspFormat::kIsaac, "isaac", {".yaml", ".yml"}},
+      {GraspFormat::kAcronym, "acronym", {".h5", ".hdf5"}},
+      {GraspFormat::kMjcf, "mjcf", {".xml"}},
+      {GraspFormat::kUsd, "usd", {".usda"}}};
+  return rows;
+}
+
+std::string NumberText(double value) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.9g", value);
+  return text;
+}
+
+std::string Joined(const std::vector<double>& values, const char* separator) {
+  std::string text;
+  for (const double value : values) {
+    if (!text.empty()) text += separator;
+    text += NumberText(value);
+  }
+  return text;
+}
+
+std::string GraspName(size_t index) {
+  return "grasp_" + std::to_string(index);
+}
+
+// Returns a quaternion with w >= 0.
+Eigen::Quaterniond Rotation(const Isometry3d& pose) {
+  Eigen::Quaterniond rotation(pose.linear());
+  rotation.normalize();
+  if (rotation.w() < 0.0) rotation.coeffs() *= -1.0;
+  return rotation;
+}
+
+// Returns the polyline of a gripper in the tool frame: a fingertip, the palm and the other one.
+std::array<Vector3d, 4> GraspGlyph(double opening) {
+  const double half = 0.5 * opening, back = -0.045;
+  return {Vector3d(0, -half, 0), Vector3d(0, -half, back), Vector3d(0, half, back),
+          Vector3d(0, half, 0)};
+}
+
+void WriteAcronym(const GraspSet& set, const assets::Asset& asset, const fs::path& file) {
+  std::vector<double> transforms, quality;
+  std::vector<std::uint8_t> held;
+  for (const Grasp& grasp : set.grasps) {
+    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix =
+        manipulation::GraspGenPose(set, grasp).matrix();
+    transforms.insert(transforms.end(), matrix.data(), matrix.data() + 16);
+    quality.push_back(grasp.quality);
+    held.push_back(1);
+  }
+  core::Hdf5Writer writer(file);
+  core::Hdf5Group object = writer.root().Create("object");
+  object.WriteText("file", set.mesh);
+  const double scale = 1.0;
+  object.Write("scale", {}, &scale);
+  object.Write("mass", {}, &asset.inertial.mass);
+  object.Write("com", {3}, asset.inertial.center_of_mass.data());
+  const Eigen::Matrix3d inertia = asset.inertial.inertia;  // symmetric
+  object.Write("inertia", {3, 3}, inertia.data());
+  object.Write("friction", {}, &set.friction);
+  core::Hdf5Group gripper = writer.root().Create("gripper");
+  gripper.WriteText("type", set.gripper);
+  const std::vector<double> open(set.joints.size(), 0.5 * set.max_opening);
+  gripper.Write("configuration", {open.size()}, open.data());
+  const size_t count = set.grasps.size();
+  core::Hdf5Group grasps = writer.root().Create("grasps");
+  grasps.Write("transforms", {count, 4, 4}, transforms.data());
+  core::Hdf5Group qualities = grasps.Create("qualities");
+  qualities.Create("flex").Write("object_in_gripper", {count}, held.data());
+  qualities.Create("simwright").Write("perturbed", {count}, quality.data());
+  writer.Commit();
+}
+
+}  // namespace
+
+GraspFormat GraspFormatOf(const std::string& name, const fs::path& file) {
+  for (const GraspFormatRow& row : GraspFormatRows()) {
+    if (!name.empty() && name == row.name) return row.format;
+    const auto matches = [&](const char* extension) { return file.extension() == extension; };
+    if (name.empty() && std::any_of(row.extensions.begin(), row.extensions.end(), matches)) {
+      return row.format;
+    }
+  }
+  throw core::Error("is no format of grasps", name.empty() ? file.string() : name,
+                    "give --format json, isaac, acronym, mjcf or usd, or a file that ends in "
+                    ".json, .yaml, .h5, .xml or .usda");
+}
+
+std::string GraspExtension(GraspFormat format) {
+  for (const GraspFormatRow& row : GraspFormatRows()) {
+    if (row.format == format) return row.extensions.front();
+  }
+  return "";
+}
+
+std::string IsaacGraspText(const GraspSet& set) {
+  std::string text = "format: isaac_grasp\nformat_version: 1.0\n\nobject_frame_link: \"" +
+                     set.object + "\"\ngripper_frame_link: \"" + set.base_link + "\"\n\ngrasps:\n";
+  for (size_t i = 0; i < set.grasps.size(); ++i) {
+    const Grasp& grasp = set.grasps[i];
+    const Isometry3d base = manipulation::BaseLinkPose(set, grasp);
+    const Eigen::Quaterniond turn = Rotation(base);
+    const Vector3d& at = base.translation();
+    text += "  \"" + GraspName(i) + "\":\n    confidence: " + NumberText(grasp.quality);
+    text += "\n    position: [" + Joined({at.x(), at.y(), at.z()}, ", ") + "]";
+    text += "\n    orientation: {w: " + NumberText(turn.w()) + ", xyz: [" +
+            Joined({turn.x(), turn.y(), turn.z()}, ", ") + "]}\n";
+    for (const bool closed : {true, false}) {
+      text += closed ? "    cspace_position:\n" : "    pregrasp_cspace_position:\n";
+      const double opening = closed ? grasp.width : grasp.opening;
+      for (const auto& joint : set.joints) {
+        const double position = joint.open + joint.closing * 0.5 * (set.max_opening - opening);
+        text += "      " + joint.name + ": " + NumberText(position) + "\n";
+      }
+    }
+  }
+  return text;
+}
+
+std::string MjcfGraspText(const GraspSet& set) {
+  std::string text = "<mujoco model=\"" + set.object +
+                     "_grasps\">\n  <worldbody>\n    <body name=\"" + set.object + "_grasps\">\n";
+  for (size_t i = 0; i < set.grasps.size(); ++i) {
+    const Grasp& grasp = set.grasps[i];
+    const Eigen::Quaterniond turn = Rotation(grasp.object_from_tool);
+    const Vector3d at = grasp.object_from_tool.translation();
+    text += "      <site name=\"" + GraspName(i) + "\" type=\"box\" size=\"" +
+            Joined({0.002, 0.5 * grasp.width, 0.002}, " ") + "\" pos=\"" +
+            Joined({at.x(), at.y(), at.z()}, " ") + "\" quat=\"" +
+            Joined({turn.w(), turn.x(), turn.y(), turn.z()}, " ") + "\" rgba=\"" +
+            Joined({1.0 - grasp.quality, grasp.quality, 0.1, 1.0}, " ") + "\" group=\"4\"/>\n";
+  }
+  return text + "    </body>\n  </worldbody>\n</mujoco>\n";
+}
+
+std::string UsdGraspText(const GraspSet& set) {
+  assets::UsdNames names;
+  assets::UsdPrim root("Scope", names.Unique(set.object + "_grasps"));
+  root.Set("custom string simwright:object", assets::UsdString(set.object));
+  root.Set("custom string simwright:gripper", assets::UsdString(set.gripper));
+  for (size_t i = 0; i < set.grasps.size(); ++i) {
+    const Grasp& grasp = set.grasps[i];
+    assets::UsdPrim one("Xform", GraspName(i));
+    one.Place(grasp.object_from_tool);
+    one.Set("custom double simwright:quality", assets::UsdDouble(grasp.quality));
+    one.Set("custom double simwright:width", assets::UsdDouble(grasp.width));
+    one.Set("custom double simwright:opening", assets::UsdDouble(grasp.opening));
+    assets::UsdPrim curve("BasisCurves", "gripper");
+    std::string points;
+    for (const Vector3d& point : GraspGlyph(grasp.opening)) {
+      points += (points.empty() ? "" : ", ") + assets::UsdFloats(point);
+    }
+    curve.Set("uniform token type", "\"linear\"");
+    curve.Set("int[] curveVertexCounts", "[4]");
+    curve.Set("point3f[] points", "[" + points + "]");
+    curve.Set("float[] widths", "[0.002]");
+    curve.Set("color3f[] primvars:displayColor",
+              "[" + assets::UsdFloats(Vector3d(1.0 - grasp.quality, grasp.quality, 0.1)) + "]");
+    curve.Set("uniform token purpose", "\"guide\"");
+    one.Add(std::move(curve));
+    root.Add(std::move(one));
+  }
+  return assets::UsdLayerText(root, "Grasps of " + set.object + " by the gripper " + set.gripper +
+                                        ": each prim is the tool frame, z along the approach, y "
+                                        "from finger to finger");
+}
+
+void WriteGrasps(const GraspSet& set, const assets::Asset& asset, GraspFormat format,
+                 const fs::path& file) {
+  switch (format) {
+    case GraspFormat::kJson:
+      core::WriteFile(file, core::JsonText(manipulation::GraspSetJson(set)));
+      return;
+    case GraspFormat::kIsaac:
+      core::WriteFile(file, IsaacGraspText(set));
+      return;
+    case GraspFormat::kAcronym:
+      WriteAcronym(set, asset, file);
+      return;
+    case GraspFormat::kMjcf:
+      core::WriteFile(file, MjcfGraspText(set));
+      return;
+    case GraspFormat::kUsd:
+      core::WriteFile(file, UsdGraspText(set));
+      return;
+  }
+}
+
+}  // namespace simwright::workflows
