@@ -21,11 +21,11 @@ packages=(
   libeigen3-dev libassimp-dev libdraco-dev libcgal-dev libembree-dev libopencv-dev libopencv-contrib-dev
   libceres-dev libbullet-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
   libcli11-dev libcurl4-openssl-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev
-  libconsole-bridge-dev libhdf5-dev libspdlog-dev
+  libconsole-bridge-dev libhdf5-dev libspdlog-dev libcpp-httplib-dev
   wordnet-base libtorch-dev libopenblas0-pthread
   python3-dev python3-venv
 )
-test_libraries=(libgtest-dev libsdformat-dev libcpp-httplib-dev)
+test_libraries=(libgtest-dev libsdformat-dev)
 environments=()
 install_packages=$([ $# -gt 0 ] || echo yes)
 for wanted in "$@"; do
