@@ -5,6 +5,7 @@
 #include "core/base64.h"
 #include "core/content_hash.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/text_template.h"
 #include "viewer/web_data.h"
 
@@ -55,22 +56,37 @@ std::string ImportMap() {
   return ScriptJson({{"imports", imports}});
 }
 
+// Computes the replays of the first worlds; those of worlds without any are empty.
+std::vector<Timeline> ReplaysOf(Content* content, int included, core::Progress* progress) {
+  std::vector<Timeline> replays(static_cast<std::size_t>(included));
+  progress->Stage("replays", included);
+  core::ParallelFor(included, [&](int i) {
+    const auto world = static_cast<std::size_t>(i);
+    if (content->document().manifest["worlds"][world].contains("replay")) {
+      replays[world] = content->Replay(i);
+    }
+    progress->Advance();
+  });
+  return replays;
+}
+
 // Fills in the bodies and replays of the first worlds, and removes the others.
-void IncludeWorlds(Content* content, int most, OrderedJson* manifest, std::vector<Buffer>* buffers,
-                   core::Findings* findings) {
+void IncludeWorlds(Content* content, int most, core::Progress* progress, OrderedJson* manifest,
+                   std::vector<Buffer>* buffers, core::Findings* findings) {
   OrderedJson worlds = OrderedJson::array();
   const int count = content->WorldCount();
   const int included = std::min(count, most);
+  const std::vector<Timeline> replays = ReplaysOf(content, included, progress);
   for (int i = 0; i < included; ++i) {
+    const Timeline& replay = replays[static_cast<std::size_t>(i)];
     OrderedJson world = (*manifest)["worlds"][static_cast<std::size_t>(i)];
     if (!world.contains("bodies")) world["bodies"] = content->Bodies(i);
-    if (world.contains("replay")) {
-      const Timeline timeline = content->Replay(i);
-      OrderedJson json = TimelineJson(timeline);
+    world.erase("replay");
+    if (replay.frames() > 0) {
+      OrderedJson json = TimelineJson(replay);
       json["buffer"] = buffers->size();
-      buffers->push_back({TimelineBytes(timeline), "application/octet-stream"});
+      buffers->push_back({TimelineBytes(replay), "application/octet-stream"});
       world["timelines"].push_back(std::move(json));
-      world.erase("replay");
     }
     worlds.push_back(std::move(world));
   }
@@ -118,10 +134,10 @@ std::string ServedPage() {
 }
 
 std::string SingleFilePage(Content* content, const SingleFileOptions& options,
-                           core::Findings* findings) {
+                           core::Progress* progress, core::Findings* findings) {
   OrderedJson manifest = content->document().manifest;
   std::vector<Buffer> buffers = content->document().buffers;
-  IncludeWorlds(content, options.worlds, &manifest, &buffers, findings);
+  IncludeWorlds(content, options.worlds, progress, &manifest, &buffers, findings);
   std::string bytes;
   OrderedJson ranges = OrderedJson::array();
   for (const Buffer& buffer : buffers) {

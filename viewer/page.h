@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/finding.h"
+#include "core/progress.h"
 #include "viewer/content.h"
 
 namespace simwright::viewer {
@@ -30,10 +31,10 @@ struct SingleFileOptions {
 };
 
 // Returns the whole content as one file that needs no server and no network. Scripts and buffers
-// are inlined, and a policy in the page forbids all others. Replays are computed first. Reports in
-// `findings` what was left out. Throws core::Error if the content is larger than
-// `options.largest`, or cannot be read.
+// are inlined, and a policy in the page forbids all others. Replays are computed first, in
+// parallel; `progress` counts them. Reports in `findings` what was left out. Throws core::Error if
+// the content is larger than `options.largest`, or cannot be read.
 std::string SingleFilePage(Content* content, const SingleFileOptions& options,
-                           core::Findings* findings);
+                           core::Progress* progress, core::Findings* findings);
 
 }  // namespace simwright::viewer

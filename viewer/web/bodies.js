@@ -47,6 +47,12 @@ export class Body {
 
   get size() { return this.extent ??= this.makeExtent(); }
 
+  // Returns the size of a link's symbols: that of its inertia box, if it is known, within the body's.
+  sizeOf(link) {
+    const box = this.model.links[link].box_size;
+    return box ? Math.min(this.size, Math.max(0.1 * this.size, 1.5 * Math.hypot(...box))) : this.size;
+  }
+
   makeExtent() {
     const box = this.bounds();
     return box.isEmpty() ? 0.2 : box.getSize(new THREE.Vector3()).length();
@@ -131,12 +137,12 @@ export class Body {
     }
     const size = this.size;
     this.model.links.forEach((link, i) => {
-      if (layer === 'mass' && link.mass > 0) add(i, massGlyph(link.center_of_mass, 0.15 * size));
+      if (layer === 'mass' && link.mass > 0) add(i, massGlyph(link.center_of_mass, 0.15 * this.sizeOf(i)));
       if (layer === 'box' && link.mass > 0) add(i, boxGlyph(link.link_from_box, link.box_size));
       if (layer === 'frames') add(i, frameGlyph([0, 0, 0], 0.12 * size));
     });
     this.model.joints.forEach((joint, i) => {
-      if (layer === 'joints' && moves(joint)) add(i + 1, jointGlyph(joint, 0.3 * size));
+      if (layer === 'joints' && moves(joint)) add(i + 1, jointGlyph(joint, 0.3 * this.sizeOf(i + 1)));
     });
     if (layer === 'grasps' && this.model.grasps) add(0, graspGlyph(this.model.grasps));
   }

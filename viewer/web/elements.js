@@ -8,7 +8,7 @@ function fill(node, properties, children) {
     else if (value === true) node.setAttribute(name, '');
     else if (value !== false && value !== undefined) node.setAttribute(name, String(value));
   }
-  for (const child of children.flat()) {
+  for (const child of children.flat(Infinity)) {
     if (child !== null && child !== undefined) node.append(child);
   }
   return node;

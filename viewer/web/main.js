@@ -1,6 +1,7 @@
 // The viewer: opens the content, shows one of its worlds, and connects panel, keys and player.
 import * as THREE from './three.module.min.js';
 import { Body } from './bodies.js';
+import { massGlyph } from './glyphs.js';
 import { expose } from './inspection.js';
 import { fillHelp, listen } from './keys.js';
 import { moves } from './kinematics.js';
@@ -74,6 +75,7 @@ class App {
     this.bodies = specs.map((spec, i) => new Body(
       i, spec, manifest.models[spec.model], this.store, () => this.stage.changed()));
     for (const body of this.bodies) this.stage.world.add(body.group);
+    this.showMarkers(manifest.worlds[index]?.markers ?? []);
     this.panel.build();
     await this.fillLayers(opening);
     if (this.opening !== opening) return;
@@ -82,10 +84,18 @@ class App {
       this.stage.fit(box);
       if (moved || !again) this.stage.orbit.frame(box);
     }
-    const timelines = manifest.worlds[index]?.timelines ?? [];
-    if (timelines.length > 0) await this.loadTimeline(timelines[0]);
+    const shown = manifest.worlds[index]?.timelines?.find((timeline) => timeline.shown);
+    if (shown) await this.loadTimeline(shown);
     this.panel.build();
     this.ready = true;
+  }
+
+  // Shows positions that a world names, such as a goal.
+  showMarkers(markers) {
+    this.markers?.removeFromParent();
+    this.markers = new THREE.Group();
+    for (const { position } of markers) this.markers.add(massGlyph(position, 0.08));
+    this.stage.world.add(this.markers);
   }
 
   async fillLayers(opening) {
@@ -178,6 +188,14 @@ class App {
     this.select(null);
     const box = this.bounds();
     this.player.load(timeline, this.bodies, box.isEmpty() ? 1 : box.getSize(new THREE.Vector3()).length());
+    this.panel.build();
+  }
+
+  // Shows the start instead of a motion.
+  leaveTimeline() {
+    this.player.load(null, []);
+    for (const body of this.bodies) body.reset();
+    this.stage.changed();
     this.panel.build();
   }
 

@@ -54,7 +54,9 @@ export class Panel {
     const world = worlds[app.index];
     const about = world === undefined ? [] : [
       world.description ? element('p', {}, world.description) : null,
-      world.facts?.length ? factTable(world.facts) : null];
+      world.facts?.length ? factTable(world.facts) : null,
+      world.code ? element('details', {}, element('summary', {}, 'Reward program'),
+        element('pre', {}, world.code)) : null];
     if (worlds.length < 2) return about.some(Boolean) ? section('About', about) : null;
     const items = worlds.map(({ name, group }, i) => element('li', {},
       element('button', {
@@ -80,6 +82,7 @@ export class Panel {
     const choices = (world?.timelines ?? []).map((one) => button(
       one.name, `Show: ${one.name}`, () => app.loadTimeline(one),
       { 'aria-pressed': String(timeline?.name === one.name) }));
+    if (timeline) choices.unshift(button('Start', 'Show the start instead', () => app.leaveTimeline()));
     if (world?.replay) {
       choices.push(button(world.replay.title, world.replay.title, () => app.requestReplay(),
         { disabled: Boolean(app.replaying) }));
@@ -194,7 +197,10 @@ export class Panel {
   // Shows the frame of the player in its bar, its charts and the sliders.
   showFrame(player) {
     this.bar.hidden = !player.timeline;
-    if (!player.timeline) return;
+    if (!player.timeline) {
+      this.barOf = undefined;
+      return;
+    }
     if (this.barOf !== player.timeline) this.buildBar(player);
     this.play.textContent = player.playing ? '❚❚' : '▶';
     this.scrub.value = player.frame;

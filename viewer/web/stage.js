@@ -4,11 +4,22 @@ import { Orbit } from './orbit.js';
 
 const SLOW_FRAME = 70;  // ms between frames: the resolution is then halved while the view moves
 
+// Returns true if the processor renders, as in a virtual machine.
+function rendersInSoftware() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const names = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
 export class Stage {
   constructor(canvas) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
-    this.renderer.shadowMap.enabled = true;
+    this.software = rendersInSoftware();
+    this.renderer = new THREE.WebGLRenderer({
+      canvas, antialias: !this.software, preserveDrawingBuffer: true });
+    this.renderer.shadowMap.enabled = !this.software;
     this.renderer.shadowMap.autoUpdate = false;
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(40, 1, 0.01, 100);
@@ -39,6 +50,7 @@ export class Stage {
       new THREE.ShadowMaterial({ opacity: 0.22, depthWrite: false }));
     this.shade.receiveShadow = true;
     this.ground.add(this.shade);
+    this.shade.visible = !this.software;
     this.scene.add(this.ground);
   }
 
@@ -90,7 +102,7 @@ export class Stage {
 
   resize() {
     const width = Math.max(1, this.canvas.clientWidth), height = Math.max(1, this.canvas.clientHeight);
-    this.renderer.setPixelRatio(this.scale * Math.min(2, window.devicePixelRatio));
+    this.renderer.setPixelRatio(this.scale * Math.min(this.software ? 1 : 2, window.devicePixelRatio));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();

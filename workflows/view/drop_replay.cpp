@@ -1,5 +1,6 @@
 #include "workflows/view/drop_replay.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -9,6 +10,8 @@
 namespace simwright::workflows {
 namespace {
 
+constexpr double kRestSeconds = 0.2;
+constexpr float kRestTurn = 2e-6f;   // 1 - |cos| of half an angle of 4 mrad
 constexpr double kFloorBound = 1.0;  // m, height of the floor's AABB: a body falls less in a step
 
 sim::WorldOptions OptionsOf(const DropOptions& options) {
@@ -17,6 +20,21 @@ sim::WorldOptions OptionsOf(const DropOptions& options) {
   world.full_warm_start = true;
   world.floor_reach = kFloorBound;
   return world;
+}
+
+// Returns true if no position in the last row differs by `tolerance` (m) or more from the row of
+// `frames` frames before.
+bool IsAtRest(const viewer::Timeline& timeline, int frames, double tolerance) {
+  const auto width = static_cast<std::size_t>(timeline.width);
+  const float* const now = timeline.rows.data() + timeline.rows.size() - width;
+  const float* const before = now - width * static_cast<std::size_t>(frames);
+  for (std::size_t at = 0; at < width; at += 7) {
+    const Eigen::Map<const Eigen::Vector3f> a(now + at), b(before + at);
+    const Eigen::Map<const Eigen::Vector4f> p(now + at + 3), q(before + at + 3);
+    if ((a - b).norm() >= tolerance) return false;
+    if (1.0f - std::abs(p.dot(q)) >= kRestTurn) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -28,6 +46,8 @@ bool DropOptions::IsValid(std::string* error) const {
     *error = "a drop must last from 0 to 60 s";
   } else if (!(time_step > 0.0 && time_step <= 0.01)) {
     *error = "the time step of a drop must be from 0 to 0.01 s";
+  } else if (!(rest_tolerance >= 0.0)) {
+    *error = "the rest tolerance of a drop must not be negative";
   } else if (steps_per_frame < 1) {
     *error = "a frame of a drop must have at least one step";
   } else {
@@ -61,9 +81,11 @@ viewer::Timeline DropReplay(const std::vector<DroppedBody>& bodies, const DropOp
   if (free.empty()) throw core::Error("there is no free object to drop");
   const auto frames =
       static_cast<int>(std::lround(options.seconds / options.time_step)) / options.steps_per_frame;
+  const int rest_frames = std::max(1, static_cast<int>(std::lround(kRestSeconds * timeline.rate)));
   for (int frame = 0; frame <= frames; ++frame) {
     for (const int index : indices) viewer::AppendPose(world.Pose(index), &timeline.rows);
     core::CheckCancelled();
+    if (frame > 2 * rest_frames && IsAtRest(timeline, rest_frames, options.rest_tolerance)) break;
     for (int step = 0; step < options.steps_per_frame; ++step) world.Step();
   }
   double farthest = -1.0;

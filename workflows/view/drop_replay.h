@@ -21,6 +21,8 @@ struct DropOptions {
   double seconds = 2.5;     // simulated
   double time_step = 1e-3;  // s
   int steps_per_frame = 20;
+  // The drop ends early when no free body moves farther than this (m) in 0.2 s; 0: never early.
+  double rest_tolerance = 2e-4;
 
   bool IsValid(std::string* error) const;
 };

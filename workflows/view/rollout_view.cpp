@@ -141,7 +141,9 @@ OrderedJson RolloutWorld(const RolloutPoseFile& poses, const tasks::TaskSet& set
   world["name"] = "rollout of " + task.name;
   world["bodies"] = viewer::BodiesJson(bodies);
   world["timelines"] = OrderedJson::array();
-  world["timelines"].push_back(viewer::AddTimeline(poses.timeline, builder));
+  OrderedJson timeline = viewer::AddTimeline(poses.timeline, builder);
+  timeline["shown"] = true;
+  world["timelines"].push_back(std::move(timeline));
   return world;
 }
 

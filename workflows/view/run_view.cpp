@@ -122,7 +122,8 @@ bool HasPolicies(const SkillRun& run) {
 }
 
 // Adds the starts of the run's tasks; returns the variant of each, -1 where none can be recorded.
-std::vector<int> AddRunWorlds(const SkillRun& run, TaskModels* models,
+// `group`: shown before their names; empty: that of the task.
+std::vector<int> AddRunWorlds(const SkillRun& run, const std::string& group, TaskModels* models,
                               viewer::DocumentBuilder* builder) {
   std::vector<int> variants;
   const bool recordable = HasPolicies(run);
@@ -130,6 +131,7 @@ std::vector<int> AddRunWorlds(const SkillRun& run, TaskModels* models,
     const tasks::Task& task = run.set.tasks[i];
     for (std::size_t k = 0; k < task.subtasks.size(); ++k) {
       OrderedJson world = SubtaskWorld(task, task.subtasks[k], models);
+      if (!group.empty()) world["group"] = group;
       const bool first = k == 0 && recordable;
       if (first) world["replay"] = EpisodeOffer();
       variants.push_back(first ? static_cast<int>(i) : -1);
@@ -149,7 +151,7 @@ std::vector<int> AddPhotoRunWorlds(const PhotoRunFolder& folder, const tasks::Ta
   }
   if (IsTrainingFolder(folder.Skill())) {
     const SkillRun run = ReadRun(folder.Skill());
-    const std::vector<int> more = AddRunWorlds(run, models, builder);
+    const std::vector<int> more = AddRunWorlds(run, "trained", models, builder);
     variants.insert(variants.end(), more.begin(), more.end());
   }
   for (const tasks::Task& task : set.tasks) {
@@ -181,7 +183,7 @@ std::unique_ptr<viewer::Content> ReadTrainingView(const fs::path& folder) {
   const SkillRun run = ReadRun(folder);
   viewer::DocumentBuilder builder("run", "training " + FolderName(folder));
   TaskModels models(run.set, RobotOf(run.robot), &builder);
-  std::vector<int> variants = AddRunWorlds(run, &models, &builder);
+  std::vector<int> variants = AddRunWorlds(run, "", &models, &builder);
   builder.manifest()["live"] = true;
   return std::make_unique<TrainingContent>(builder.Take(), folder, std::move(variants));
 }

@@ -15,14 +15,14 @@ namespace simwright::workflows {
 ViewReport WriteView(const ViewRequest& request, core::Progress* progress) {
   progress->Stage("read");
   const std::unique_ptr<viewer::Content> content = ReadViewContent(request.path);
-  progress->Stage("write");
   ViewReport report;
   report.file = request.html;
   const core::OrderedJson& manifest = content->document().manifest;
   report.kind = manifest["kind"].get<std::string>();
   viewer::SingleFileOptions options;
   options.worlds = request.most;
-  const std::string page = viewer::SingleFilePage(content.get(), options, &report.findings);
+  const std::string page =
+      viewer::SingleFilePage(content.get(), options, progress, &report.findings);
   core::WriteFile(request.html, page);
   report.entries = std::min(request.most, content->WorldCount());
   report.megabytes = static_cast<double>(page.size()) * 1e-6;
