@@ -152,7 +152,7 @@ std::unique_ptr<viewer::Content> ReadRolloutView(const fs::path& file) {
   const fs::path tasks_file = fs::absolute(file).parent_path() / "tasks.json";
   if (!fs::exists(tasks_file)) {
     throw core::Error("the tasks.json of the rollout is not beside it", file.string(),
-                      "copy the tasks.json of its training there");
+                      "let rollout --poses write into the training's folder");
   }
   const tasks::TaskSet set = tasks::ReadTaskFile(tasks_file);
   viewer::DocumentBuilder builder("rollout", "rollout of " + poses.task);

@@ -163,6 +163,27 @@ std::vector<int> AddPhotoRunWorlds(const PhotoRunFolder& folder, const tasks::Ta
   return variants;
 }
 
+// Adds the rollouts whose poses lie in a training's folder, each as an entry.
+void AddRollouts(const SkillRun& run, TaskModels* models, viewer::DocumentBuilder* builder,
+                 std::vector<int>* variants) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(run.folder)) {
+    if (entry.path().extension() == ".jsonl") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) {
+    try {
+      OrderedJson world = RolloutWorld(ReadRolloutPoses(file), run.set, models, builder);
+      world["group"] = file.filename().string();
+      builder->AddWorld(std::move(world));
+      variants->push_back(-1);
+    } catch (const core::Error& error) {
+      viewer::AddFinding({"view-rollout-not-shown", core::Severity::kWarning, "", error.what()},
+                         builder);
+    }
+  }
+}
+
 std::string FolderName(const fs::path& folder) {
   const fs::path name = fs::absolute(folder).lexically_normal();
   return name.has_filename() ? name.filename().string() : name.parent_path().filename().string();
@@ -184,6 +205,7 @@ std::unique_ptr<viewer::Content> ReadTrainingView(const fs::path& folder) {
   viewer::DocumentBuilder builder("run", "training " + FolderName(folder));
   TaskModels models(run.set, RobotOf(run.robot), &builder);
   std::vector<int> variants = AddRunWorlds(run, "", &models, &builder);
+  AddRollouts(run, &models, &builder, &variants);
   builder.manifest()["live"] = true;
   return std::make_unique<TrainingContent>(builder.Take(), folder, std::move(variants));
 }

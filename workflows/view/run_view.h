@@ -7,8 +7,8 @@
 
 namespace simwright::workflows {
 
-// Returns the content of a training's folder: the start of each subtask, and the learning curves
-// as the logs stand when they are asked for. An episode of the policies is recorded on request.
+// Returns the content of a training's folder: the start of each subtask, the rollouts whose poses
+// lie in it, and the learning curves as the logs stand when they are asked for. An episode of the policies is recorded on request.
 // Throws core::Error as ReadRun does.
 std::unique_ptr<viewer::Content> ReadTrainingView(const std::filesystem::path& folder);
 
