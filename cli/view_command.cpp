@@ -4,7 +4,7 @@
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "core/json.h"
-#include "workflows/view/view.h"
+#include "viewer/contents/view.h"
 
 namespace simwright::cli {
 namespace {
@@ -18,18 +18,18 @@ void PrintAddress(const std::string& url, const CommonOptions& common) {
   std::fflush(stdout);
 }
 
-int View(const workflows::ViewRequest& request, const CommonOptions& common) {
+int View(const viewer::ViewRequest& request, const CommonOptions& common) {
   if (request.html.empty()) {
-    workflows::ServeView(request, [&](const std::string& url) { PrintAddress(url, common); });
+    viewer::ServeView(request, [&](const std::string& url) { PrintAddress(url, common); });
     return 0;
   }
   core::Progress progress(common.ProgressStyle());
-  const workflows::ViewReport report = workflows::WriteView(request, &progress);
+  const viewer::ViewReport report = viewer::WriteView(request, &progress);
   progress.Finish();
   if (common.json) {
-    PrintJson(workflows::ViewJson(report), report.findings);
+    PrintJson(viewer::ViewJson(report), report.findings);
   } else {
-    std::fputs(workflows::ViewTable(report).c_str(), stdout);
+    std::fputs(viewer::ViewTable(report).c_str(), stdout);
     PrintFindings(report.findings, common);
   }
   return 0;
@@ -38,7 +38,7 @@ int View(const workflows::ViewRequest& request, const CommonOptions& common) {
 }  // namespace
 
 void AddView(CLI::App* app, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<workflows::ViewRequest>();
+  auto request = std::make_shared<viewer::ViewRequest>();
   CLI::App* command =
       app->add_subcommand("view", "Show assets, scenes, tasks, rollouts and runs in a browser");
   command->footer(

@@ -10,14 +10,13 @@
 #include "tasks/task.h"
 #include "viewer/content.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 
 // The robot and the assets of a task set as models of a document, each added when it is first used.
 class TaskModels {
  public:
   // `set` and `robot` must outlive this.
-  TaskModels(const tasks::TaskSet& set, const robot::RobotModel& robot,
-             viewer::DocumentBuilder* builder);
+  TaskModels(const tasks::TaskSet& set, const robot::RobotModel& robot, DocumentBuilder* builder);
 
   // Return the index of a model. Throw core::Error if an asset cannot be read, or is not in the
   // set.
@@ -26,12 +25,12 @@ class TaskModels {
 
   // Returns the bodies of a subtask's start: the robot at home with an open gripper, then the
   // placed assets.
-  std::vector<viewer::WorldBody> BodiesAtStart(const tasks::InitialState& start);
+  std::vector<WorldBody> BodiesAtStart(const tasks::InitialState& start);
 
  private:
   const tasks::TaskSet& set_;
   const robot::RobotModel& robot_;
-  viewer::DocumentBuilder* builder_;
+  DocumentBuilder* builder_;
   int robot_model_ = -1;
   std::map<std::string, int> models_;
 };
@@ -46,6 +45,6 @@ core::OrderedJson SubtaskWorld(const tasks::Task& task, const tasks::Subtask& su
 // Returns the content of a tasks.json: an entry per subtask, with the Panda. Tasks with an asset
 // that cannot be read are findings. Throws core::Error if the file is invalid, or no task can be
 // shown.
-std::unique_ptr<viewer::Content> ReadTasksView(const std::filesystem::path& file);
+std::unique_ptr<Content> ReadTasksView(const std::filesystem::path& file);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer

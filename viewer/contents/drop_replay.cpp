@@ -1,4 +1,4 @@
-#include "workflows/view/drop_replay.h"
+#include "viewer/contents/drop_replay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "core/progress.h"
 #include "sim/world.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 namespace {
 
 constexpr double kRestSeconds = 0.2;
@@ -24,7 +24,7 @@ sim::WorldOptions OptionsOf(const DropOptions& options) {
 
 // Returns true if no position in the last row differs by `tolerance` (m) or more from the row of
 // `frames` frames before.
-bool IsAtRest(const viewer::Timeline& timeline, int frames, double tolerance) {
+bool IsAtRest(const Timeline& timeline, int frames, double tolerance) {
   const auto width = static_cast<std::size_t>(timeline.width);
   const float* const now = timeline.rows.data() + timeline.rows.size() - width;
   const float* const before = now - width * static_cast<std::size_t>(frames);
@@ -56,11 +56,11 @@ bool DropOptions::IsValid(std::string* error) const {
   return false;
 }
 
-viewer::Timeline DropReplay(const std::vector<DroppedBody>& bodies, const DropOptions& options) {
+Timeline DropReplay(const std::vector<DroppedBody>& bodies, const DropOptions& options) {
   std::string fault;
   if (!options.IsValid(&fault)) throw core::Error(fault);
   sim::World world(OptionsOf(options));
-  viewer::Timeline timeline;
+  Timeline timeline;
   timeline.name = "drop";
   timeline.rate = 1.0 / (options.time_step * options.steps_per_frame);
   std::vector<std::size_t> free;  // indices into `bodies`
@@ -83,7 +83,7 @@ viewer::Timeline DropReplay(const std::vector<DroppedBody>& bodies, const DropOp
       static_cast<int>(std::lround(options.seconds / options.time_step)) / options.steps_per_frame;
   const int rest_frames = std::max(1, static_cast<int>(std::lround(kRestSeconds * timeline.rate)));
   for (int frame = 0; frame <= frames; ++frame) {
-    for (const int index : indices) viewer::AppendPose(world.Pose(index), &timeline.rows);
+    for (const int index : indices) AppendPose(world.Pose(index), &timeline.rows);
     core::CheckCancelled();
     if (frame > 2 * rest_frames && IsAtRest(timeline, rest_frames, options.rest_tolerance)) break;
     for (int step = 0; step < options.steps_per_frame; ++step) world.Step();
@@ -98,9 +98,9 @@ viewer::Timeline DropReplay(const std::vector<DroppedBody>& bodies, const DropOp
     farthest = moved;
     worst = free[i];
   }
-  timeline.facts = {{"dropped by", viewer::Quantity(1000.0 * options.height, "mm")},
+  timeline.facts = {{"dropped by", Quantity(1000.0 * options.height, "mm")},
                     {"farthest from its place", bodies[worst].name},
-                    {"distance at the end", viewer::Quantity(1000.0 * farthest, "mm", 3)}};
+                    {"distance at the end", Quantity(1000.0 * farthest, "mm", 3)}};
   return timeline;
 }
 
@@ -108,4 +108,4 @@ core::OrderedJson DropOffer() {
   return {{"title", "Drop"}, {"waiting", "Simulating the drop in Bullet"}};
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer

@@ -1,4 +1,4 @@
-#include "workflows/view/run_view.h"
+#include "viewer/contents/run_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +10,13 @@
 #include "core/error.h"
 #include "rl/training_log.h"
 #include "tasks/task_file.h"
+#include "viewer/contents/asset_view.h"
+#include "viewer/contents/rollout_view.h"
+#include "viewer/contents/task_view.h"
 #include "viewer/model_document.h"
 #include "workflows/photo_run/photo_run_folder.h"
-#include "workflows/view/asset_view.h"
-#include "workflows/view/rollout_view.h"
-#include "workflows/view/task_view.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 namespace fs = std::filesystem;
 namespace {
 
@@ -31,11 +31,11 @@ OrderedJson RunFacts(const fs::path& file) {
   return document.json();
 }
 
-viewer::Chart ChartOf(const std::string& title, const std::string& y,
-                      const std::vector<rl::TrainingRecord>& records,
-                      double rl::TrainingRecord::*value, bool with_interval) {
-  viewer::Chart chart{title, "samples", y, {}};
-  viewer::Curve& curve = chart.curves.emplace_back();
+Chart ChartOf(const std::string& title, const std::string& y,
+              const std::vector<rl::TrainingRecord>& records, double rl::TrainingRecord::*value,
+              bool with_interval) {
+  Chart chart{title, "samples", y, {}};
+  Curve& curve = chart.curves.emplace_back();
   curve.name = y;
   for (const rl::TrainingRecord& record : records) {
     curve.x.push_back(record.samples);
@@ -64,10 +64,10 @@ OrderedJson TrainingCharts(const fs::path& folder) {
       const std::vector<rl::TrainingRecord> records =
           rl::ReadTrainingTable(log / kTable, std::numeric_limits<std::int64_t>::max());
       if (records.empty()) continue;
-      charts.push_back(viewer::ChartJson(ChartOf(name + ": success rate", "success", records,
-                                                 &rl::TrainingRecord::success, true)));
-      charts.push_back(viewer::ChartJson(ChartOf(name + ": mean return", "return", records,
-                                                 &rl::TrainingRecord::mean_return, false)));
+      charts.push_back(ChartJson(ChartOf(name + ": success rate", "success", records,
+                                         &rl::TrainingRecord::success, true)));
+      charts.push_back(ChartJson(ChartOf(name + ": mean return", "return", records,
+                                         &rl::TrainingRecord::mean_return, false)));
     } catch (const core::Error&) {
       continue;
     }
@@ -76,23 +76,23 @@ OrderedJson TrainingCharts(const fs::path& folder) {
 }
 
 // A training, whose policies act when an episode is asked for.
-class TrainingContent : public viewer::Content {
+class TrainingContent : public Content {
  public:
   // `variants`: the task, by world, whose episode a replay shows; -1: none.
-  TrainingContent(viewer::Document document, fs::path folder, std::vector<int> variants)
+  TrainingContent(Document document, fs::path folder, std::vector<int> variants)
       : Content(std::move(document)), folder_(std::move(folder)), variants_(std::move(variants)) {}
 
   OrderedJson Charts() override { return TrainingCharts(folder_); }
 
-  viewer::Timeline Replay(int world) override {
+  Timeline Replay(int world) override {
     const int variant = variants_[static_cast<std::size_t>(world)];
     if (variant < 0) return Content::Replay(world);
     const std::lock_guard lock(mutex_);
-    if (!task_) task_ = std::make_unique<TrainedTask>(folder_);
-    ChainRecording shown;
+    if (!task_) task_ = std::make_unique<workflows::TrainedTask>(folder_);
+    workflows::ChainRecording shown;
     for (int episode = 0; episode < kTries; ++episode) {
-      ChainRecording recording =
-          RecordEpisode(task_->links(), kSeed, static_cast<std::uint64_t>(episode));
+      workflows::ChainRecording recording =
+          workflows::RecordEpisode(task_->links(), kSeed, static_cast<std::uint64_t>(episode));
       if (recording.subtasks.empty()) continue;
       if (recording.subtasks.front().start.variant != variant) continue;
       shown = std::move(recording);
@@ -106,25 +106,26 @@ class TrainingContent : public viewer::Content {
   fs::path folder_;
   std::vector<int> variants_;
   std::mutex mutex_;
-  std::unique_ptr<TrainedTask> task_;
+  std::unique_ptr<workflows::TrainedTask> task_;
 };
 
 OrderedJson EpisodeOffer() {
   return {{"title", "Record an episode"}, {"waiting", "The policy acts in simulation"}};
 }
 
-bool HasPolicies(const SkillRun& run) {
+bool HasPolicies(const workflows::SkillRun& run) {
   int number = 0;
   for (const tasks::Subtask& subtask : run.set.tasks.front().subtasks) {
-    if (!fs::exists(SkillFolder(run, ++number, subtask.name) / "policy.pt")) return false;
+    if (!fs::exists(workflows::SkillFolder(run, ++number, subtask.name) / "policy.pt"))
+      return false;
   }
   return true;
 }
 
 // Adds the starts of the run's tasks; returns the variant of each, -1 where none can be recorded.
 // `group`: shown before their names; empty: that of the task.
-std::vector<int> AddRunWorlds(const SkillRun& run, const std::string& group, TaskModels* models,
-                              viewer::DocumentBuilder* builder) {
+std::vector<int> AddRunWorlds(const workflows::SkillRun& run, const std::string& group,
+                              TaskModels* models, DocumentBuilder* builder) {
   std::vector<int> variants;
   const bool recordable = HasPolicies(run);
   for (std::size_t i = 0; i < run.set.tasks.size(); ++i) {
@@ -142,15 +143,16 @@ std::vector<int> AddRunWorlds(const SkillRun& run, const std::string& group, Tas
 }
 
 // Adds the worlds of a photo run as far as its stages have come; returns the variants.
-std::vector<int> AddPhotoRunWorlds(const PhotoRunFolder& folder, const tasks::TaskSet& set,
-                                   TaskModels* models, viewer::DocumentBuilder* builder) {
+std::vector<int> AddPhotoRunWorlds(const workflows::PhotoRunFolder& folder,
+                                   const tasks::TaskSet& set, TaskModels* models,
+                                   DocumentBuilder* builder) {
   std::vector<int> variants;
   if (fs::exists(folder.Poses())) {
     builder->AddWorld(RolloutWorld(ReadRolloutPoses(folder.Poses()), set, models, builder));
     variants.push_back(-1);
   }
   if (IsTrainingFolder(folder.Skill())) {
-    const SkillRun run = ReadRun(folder.Skill());
+    const workflows::SkillRun run = workflows::ReadRun(folder.Skill());
     const std::vector<int> more = AddRunWorlds(run, "trained", models, builder);
     variants.insert(variants.end(), more.begin(), more.end());
   }
@@ -164,7 +166,7 @@ std::vector<int> AddPhotoRunWorlds(const PhotoRunFolder& folder, const tasks::Ta
 }
 
 // Adds the rollouts whose poses lie in a training's folder, each as an entry.
-void AddRollouts(const SkillRun& run, TaskModels* models, viewer::DocumentBuilder* builder,
+void AddRollouts(const workflows::SkillRun& run, TaskModels* models, DocumentBuilder* builder,
                  std::vector<int>* variants) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(run.folder)) {
@@ -178,8 +180,7 @@ void AddRollouts(const SkillRun& run, TaskModels* models, viewer::DocumentBuilde
       builder->AddWorld(std::move(world));
       variants->push_back(-1);
     } catch (const core::Error& error) {
-      viewer::AddFinding({"view-rollout-not-shown", core::Severity::kWarning, "", error.what()},
-                         builder);
+      AddFinding({"view-rollout-not-shown", core::Severity::kWarning, "", error.what()}, builder);
     }
   }
 }
@@ -200,20 +201,20 @@ bool IsPhotoRunFolder(const fs::path& folder) {
   return fs::exists(folder / "run.json") && RunFacts(folder / "run.json").contains("stages");
 }
 
-std::unique_ptr<viewer::Content> ReadTrainingView(const fs::path& folder) {
-  const SkillRun run = ReadRun(folder);
-  viewer::DocumentBuilder builder("run", "training " + FolderName(folder));
-  TaskModels models(run.set, RobotOf(run.robot), &builder);
+std::unique_ptr<Content> ReadTrainingView(const fs::path& folder) {
+  const workflows::SkillRun run = workflows::ReadRun(folder);
+  DocumentBuilder builder("run", "training " + FolderName(folder));
+  TaskModels models(run.set, workflows::RobotOf(run.robot), &builder);
   std::vector<int> variants = AddRunWorlds(run, "", &models, &builder);
   AddRollouts(run, &models, &builder, &variants);
   builder.manifest()["live"] = true;
   return std::make_unique<TrainingContent>(builder.Take(), folder, std::move(variants));
 }
 
-std::unique_ptr<viewer::Content> ReadPhotoRunView(const fs::path& root) {
-  PhotoRunFolder folder{root, ""};
+std::unique_ptr<Content> ReadPhotoRunView(const fs::path& root) {
+  workflows::PhotoRunFolder folder{root, ""};
   const OrderedJson facts = RunFacts(root / "run.json");
-  viewer::DocumentBuilder builder("run", "run " + FolderName(root));
+  DocumentBuilder builder("run", "run " + FolderName(root));
   builder.manifest()["live"] = true;
   std::vector<int> variants;
   for (const auto& entry : fs::directory_iterator(root)) {
@@ -221,14 +222,14 @@ std::unique_ptr<viewer::Content> ReadPhotoRunView(const fs::path& root) {
     OrderedJson model = ModelOfPath(entry.path(), &builder);
     const std::string name = model["name"].get<std::string>();
     OrderedJson world = {{"name", "asset " + name}};
-    world["bodies"] = viewer::BodiesJson({{name, builder.AddModel(std::move(model))}});
+    world["bodies"] = BodiesJson({{name, builder.AddModel(std::move(model))}});
     builder.AddWorld(std::move(world));
     variants.push_back(-1);
   }
   tasks::TaskSet set;
   if (fs::exists(folder.Tasks())) {
     set = tasks::ReadTaskFile(folder.Tasks());
-    TaskModels models(set, RobotOf("panda"), &builder);
+    TaskModels models(set, workflows::RobotOf("panda"), &builder);
     const std::vector<int> more = AddPhotoRunWorlds(folder, set, &models, &builder);
     variants.insert(variants.end(), more.begin(), more.end());
   }
@@ -239,4 +240,4 @@ std::unique_ptr<viewer::Content> ReadPhotoRunView(const fs::path& root) {
   return std::make_unique<TrainingContent>(builder.Take(), folder.Skill(), std::move(variants));
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer

@@ -1,4 +1,4 @@
-#include "workflows/view/scene_view.h"
+#include "viewer/contents/scene_view.h"
 
 #include <cstdio>
 #include <map>
@@ -10,13 +10,13 @@
 #include "assets/asset_folder.h"
 #include "core/error.h"
 #include "scene/dataset/scene_dataset.h"
+#include "viewer/contents/asset_view.h"
+#include "viewer/contents/drop_replay.h"
 #include "viewer/model_document.h"
 #include "workflows/scenes/dataset_scenes.h"
 #include "workflows/scenes/scene_source.h"
-#include "workflows/view/asset_view.h"
-#include "workflows/view/drop_replay.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 namespace fs = std::filesystem;
 namespace {
 
@@ -41,23 +41,23 @@ struct ShownObject {
   bool welded = false;
 };
 
-class ScenesContent : public viewer::Content {
+class ScenesContent : public Content {
  public:
-  ScenesContent(viewer::Document document, std::map<std::string, ShownAsset> assets)
+  ScenesContent(Document document, std::map<std::string, ShownAsset> assets)
       : Content(std::move(document)), assets_(std::move(assets)) {}
 
   virtual std::vector<ShownObject> Objects(int world) = 0;
 
   OrderedJson Bodies(int world) override {
-    std::vector<viewer::WorldBody> bodies;
+    std::vector<WorldBody> bodies;
     for (const ShownObject& object : Objects(world)) {
       bodies.push_back(
           {object.name, assets_.at(object.asset).model, object.world_from_object, object.welded});
     }
-    return viewer::BodiesJson(bodies);
+    return BodiesJson(bodies);
   }
 
-  viewer::Timeline Replay(int world) override {
+  Timeline Replay(int world) override {
     std::vector<DroppedBody> bodies;
     for (const ShownObject& object : Objects(world)) {
       bodies.push_back(
@@ -72,7 +72,7 @@ class ScenesContent : public viewer::Content {
 
 class DatasetContent : public ScenesContent {
  public:
-  DatasetContent(viewer::Document document, std::map<std::string, ShownAsset> assets,
+  DatasetContent(Document document, std::map<std::string, ShownAsset> assets,
                  scene::SceneDataset dataset)
       : ScenesContent(std::move(document), std::move(assets)), dataset_(std::move(dataset)) {}
 
@@ -80,7 +80,7 @@ class DatasetContent : public ScenesContent {
     std::vector<scene::SceneObject> objects;
     {
       const std::lock_guard lock(DatasetMutex());
-      objects = SceneAt(dataset_, world);
+      objects = workflows::SceneAt(dataset_, world);
     }
     std::map<std::string, int> counts;
     std::vector<ShownObject> shown;
@@ -97,7 +97,7 @@ class DatasetContent : public ScenesContent {
 
 class SourceContent : public ScenesContent {
  public:
-  SourceContent(viewer::Document document, std::map<std::string, ShownAsset> assets,
+  SourceContent(Document document, std::map<std::string, ShownAsset> assets,
                 std::vector<std::vector<ShownObject>> scenes)
       : ScenesContent(std::move(document), std::move(assets)), scenes_(std::move(scenes)) {}
 
@@ -109,9 +109,9 @@ class SourceContent : public ScenesContent {
   std::vector<std::vector<ShownObject>> scenes_;
 };
 
-ShownAsset ShowAsset(const fs::path& folder, viewer::DocumentBuilder* builder) {
+ShownAsset ShowAsset(const fs::path& folder, DocumentBuilder* builder) {
   const assets::Asset asset = assets::ReadAsset(folder);
-  return {builder->AddModel(viewer::ModelOf(asset, builder)), sim::BodyFromAsset(asset)};
+  return {builder->AddModel(ModelOf(asset, builder)), sim::BodyFromAsset(asset)};
 }
 
 std::string EntryName(int scene) {
@@ -120,7 +120,7 @@ std::string EntryName(int scene) {
   return name;
 }
 
-void AddDatasetWorlds(const scene::SceneDataset& dataset, viewer::DocumentBuilder* builder) {
+void AddDatasetWorlds(const scene::SceneDataset& dataset, DocumentBuilder* builder) {
   int scene = 0;
   for (const scene::SceneShardFile& part : dataset.parts()) {
     // Some shards have no prompts.
@@ -135,32 +135,32 @@ void AddDatasetWorlds(const scene::SceneDataset& dataset, viewer::DocumentBuilde
 
 }  // namespace
 
-std::unique_ptr<viewer::Content> ReadDatasetView(const fs::path& path) {
+std::unique_ptr<Content> ReadDatasetView(const fs::path& path) {
   const std::lock_guard lock(DatasetMutex());
   scene::SceneDataset dataset(path);
   if (dataset.SceneCount() == 0) throw core::Error("the dataset has no scenes", path.string());
   const scene::Vocabulary& vocabulary = dataset.vocabulary();
-  viewer::DocumentBuilder builder(
+  DocumentBuilder builder(
       "scenes", vocabulary.type + ": " + std::to_string(dataset.SceneCount()) + " scenes");
   std::map<std::string, ShownAsset> assets;
   const std::set<std::string> categories(vocabulary.categories.begin(),
                                          vocabulary.categories.end());
-  for (const auto& [category, folder] : FoldersOfCategories(path, {}, categories)) {
+  for (const auto& [category, folder] : workflows::FoldersOfCategories(path, {}, categories)) {
     assets.emplace(category, ShowAsset(folder, &builder));
   }
   AddDatasetWorlds(dataset, &builder);
   return std::make_unique<DatasetContent>(builder.Take(), std::move(assets), std::move(dataset));
 }
 
-std::unique_ptr<viewer::Content> ReadScenesView(const std::vector<fs::path>& paths,
-                                                const std::string& title) {
-  viewer::DocumentBuilder builder("scenes", title);
+std::unique_ptr<Content> ReadScenesView(const std::vector<fs::path>& paths,
+                                        const std::string& title) {
+  DocumentBuilder builder("scenes", title);
   std::map<std::string, ShownAsset> assets;
   std::vector<std::vector<ShownObject>> scenes;
   for (const fs::path& path : paths) {
-    for (const SourceScene& scene : ReadSceneSource(path, "", {}).scenes) {
+    for (const workflows::SourceScene& scene : workflows::ReadSceneSource(path, "", {}).scenes) {
       std::vector<ShownObject>& objects = scenes.emplace_back();
-      for (const SourceObject& object : scene.objects) {
+      for (const workflows::SourceObject& object : scene.objects) {
         const std::string key = object.asset.string();
         if (!assets.contains(key)) assets.emplace(key, ShowAsset(object.asset, &builder));
         objects.push_back(
@@ -172,4 +172,4 @@ std::unique_ptr<viewer::Content> ReadScenesView(const std::vector<fs::path>& pat
   return std::make_unique<SourceContent>(builder.Take(), std::move(assets), std::move(scenes));
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer

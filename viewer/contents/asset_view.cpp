@@ -1,4 +1,4 @@
-#include "workflows/view/asset_view.h"
+#include "viewer/contents/asset_view.h"
 
 #include <algorithm>
 #include <mutex>
@@ -11,11 +11,11 @@
 #include "assets/semantic_model.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "viewer/contents/drop_replay.h"
 #include "viewer/grasp_file.h"
 #include "viewer/model_document.h"
-#include "workflows/view/drop_replay.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 namespace fs = std::filesystem;
 namespace {
 
@@ -25,12 +25,12 @@ constexpr const char* kGraspFile = "grasps.json";
 constexpr std::size_t kMostAssets = 300;  // of a folder
 
 // One asset or several, of which rigid ones can be dropped.
-class AssetContent : public viewer::Content {
+class AssetContent : public Content {
  public:
-  AssetContent(viewer::Document document, std::vector<std::optional<sim::RigidBody>> bodies)
+  AssetContent(Document document, std::vector<std::optional<sim::RigidBody>> bodies)
       : Content(std::move(document)), bodies_(std::move(bodies)) {}
 
-  viewer::Timeline Replay(int world) override {
+  Timeline Replay(int world) override {
     const auto& body = bodies_[static_cast<std::size_t>(world)];
     if (!body) return Content::Replay(world);
     return DropReplay({{body->name, &*body}});
@@ -40,20 +40,19 @@ class AssetContent : public viewer::Content {
   std::vector<std::optional<sim::RigidBody>> bodies_;  // by world; none: cannot be dropped
 };
 
-void AddGrasps(const fs::path& folder, OrderedJson* model, viewer::DocumentBuilder* builder) {
+void AddGrasps(const fs::path& folder, OrderedJson* model, DocumentBuilder* builder) {
   const fs::path file = folder / kGraspFile;
   if (!fs::exists(file)) return;
   try {
-    (*model)["grasps"] = viewer::ReadGrasps(file);
+    (*model)["grasps"] = ReadGrasps(file);
   } catch (const core::Error& error) {
-    viewer::AddFinding({"view-grasps-not-read", core::Severity::kWarning, "", error.what()},
-                       builder);
+    AddFinding({"view-grasps-not-read", core::Severity::kWarning, "", error.what()}, builder);
   }
 }
 
 OrderedJson RigidModel(const assets::Asset& asset, const fs::path& folder,
-                       viewer::DocumentBuilder* builder) {
-  OrderedJson model = viewer::ModelOf(asset, builder);
+                       DocumentBuilder* builder) {
+  OrderedJson model = ModelOf(asset, builder);
   AddGrasps(folder, &model, builder);
   return model;
 }
@@ -69,8 +68,7 @@ std::string NameOf(const fs::path& path) {
 }
 
 // Adds one asset as a world. Returns its body where it can be dropped.
-std::optional<sim::RigidBody> AddAssetWorld(const fs::path& path,
-                                            viewer::DocumentBuilder* builder) {
+std::optional<sim::RigidBody> AddAssetWorld(const fs::path& path, DocumentBuilder* builder) {
   std::optional<sim::RigidBody> body;
   OrderedJson model;
   if (IsRigidFolder(path)) {
@@ -82,7 +80,7 @@ std::optional<sim::RigidBody> AddAssetWorld(const fs::path& path,
   }
   const std::string name = model["name"].get<std::string>();
   OrderedJson world = {{"name", name}};
-  world["bodies"] = viewer::BodiesJson({{name, builder->AddModel(std::move(model))}});
+  world["bodies"] = BodiesJson({{name, builder->AddModel(std::move(model))}});
   if (body) world["replay"] = DropOffer();
   builder->AddWorld(std::move(world));
   return body;
@@ -90,50 +88,50 @@ std::optional<sim::RigidBody> AddAssetWorld(const fs::path& path,
 
 }  // namespace
 
-OrderedJson ModelOfPath(const fs::path& path, viewer::DocumentBuilder* builder) {
+OrderedJson ModelOfPath(const fs::path& path, DocumentBuilder* builder) {
   if (IsRigidFolder(path)) return RigidModel(assets::ReadAsset(path), path, builder);
   if (fs::is_directory(path) && assets::IsArticulatedAssetFolder(path)) {
-    OrderedJson model = viewer::ModelOf(assets::ReadArticulatedAsset(path), builder);
+    OrderedJson model = ModelOf(assets::ReadArticulatedAsset(path), builder);
     AddGrasps(path, &model, builder);
     return model;
   }
   if (assets::HasMeshExtension(path)) {
     const assets::MeshFile file = assets::ReadMeshFile(path);
-    for (const core::Finding& finding : file.findings) viewer::AddFinding(finding, builder);
+    for (const core::Finding& finding : file.findings) AddFinding(finding, builder);
     core::TexturedMesh mesh = file.mesh;
     if (file.up != 0) {
       core::Transform(Eigen::Affine3d(assets::ZUpRotation(file.up)), &mesh.mesh);
     }
-    return viewer::ModelOf(mesh, path.filename().string(), builder);
+    return ModelOf(mesh, path.filename().string(), builder);
   }
   const assets::SemanticModel model = assets::ReadSemanticModel(path);
-  OrderedJson json = viewer::ModelOf(model.model, model.name, builder);
+  OrderedJson json = ModelOf(model.model, model.name, builder);
   const fs::path folder = fs::is_directory(path) ? path : path.parent_path();
   AddGrasps(folder, &json, builder);
   return json;
 }
 
-std::unique_ptr<viewer::Content> ReadAssetView(const fs::path& path) {
-  viewer::DocumentBuilder builder("asset", NameOf(path));
+std::unique_ptr<Content> ReadAssetView(const fs::path& path) {
+  DocumentBuilder builder("asset", NameOf(path));
   std::vector<std::optional<sim::RigidBody>> bodies;
   bodies.push_back(AddAssetWorld(path, &builder));
   return std::make_unique<AssetContent>(builder.Take(), std::move(bodies));
 }
 
-std::unique_ptr<viewer::Content> ReadAssetsView(const fs::path& folder) {
+std::unique_ptr<Content> ReadAssetsView(const fs::path& folder) {
   std::vector<fs::path> paths;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.is_directory() && assets::IsAssetFolder(entry.path())) paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end());
-  viewer::DocumentBuilder builder("assets", NameOf(folder));
+  DocumentBuilder builder("assets", NameOf(folder));
   if (paths.size() > kMostAssets) {
-    viewer::AddFinding({"view-assets-left-out", core::Severity::kWarning, folder.string(),
-                        "only the first " + std::to_string(kMostAssets) + " of " +
-                            std::to_string(paths.size()) + " assets are shown",
-                        static_cast<double>(paths.size() - kMostAssets),
-                        "view a single asset's folder for the others"},
-                       &builder);
+    AddFinding({"view-assets-left-out", core::Severity::kWarning, folder.string(),
+                "only the first " + std::to_string(kMostAssets) + " of " +
+                    std::to_string(paths.size()) + " assets are shown",
+                static_cast<double>(paths.size() - kMostAssets),
+                "view a single asset's folder for the others"},
+               &builder);
     paths.resize(kMostAssets);
   }
   std::vector<std::optional<sim::RigidBody>> bodies;
@@ -144,11 +142,11 @@ std::unique_ptr<viewer::Content> ReadAssetsView(const fs::path& folder) {
       bodies.push_back(AddAssetWorld(path, &builder));
     } catch (const core::Error& error) {
       fault = error.what();
-      viewer::AddFinding({"view-asset-not-read", core::Severity::kError, "", fault}, &builder);
+      AddFinding({"view-asset-not-read", core::Severity::kError, "", fault}, &builder);
     }
   }
   if (bodies.empty()) throw core::Error("no asset can be read: " + fault, folder.string());
   return std::make_unique<AssetContent>(builder.Take(), std::move(bodies));
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer

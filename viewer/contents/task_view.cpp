@@ -1,25 +1,25 @@
-#include "workflows/view/task_view.h"
+#include "viewer/contents/task_view.h"
 
 #include <utility>
 
 #include "core/error.h"
 #include "robot/panda_model.h"
 #include "tasks/task_file.h"
+#include "viewer/contents/asset_view.h"
 #include "viewer/model_document.h"
-#include "workflows/view/asset_view.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 namespace fs = std::filesystem;
 
 using core::OrderedJson;
 
 TaskModels::TaskModels(const tasks::TaskSet& set, const robot::RobotModel& robot,
-                       viewer::DocumentBuilder* builder)
+                       DocumentBuilder* builder)
     : set_(set), robot_(robot), builder_(builder) {}
 
 int TaskModels::Robot() {
   if (robot_model_ >= 0) return robot_model_;
-  OrderedJson model = viewer::ModelOf(robot_.urdf, robot_.name, builder_);
+  OrderedJson model = ModelOf(robot_.urdf, robot_.name, builder_);
   model["camera_link"] = robot_.tool_link;
   return robot_model_ = builder_->AddModel(std::move(model));
 }
@@ -36,11 +36,11 @@ int TaskModels::Asset(const std::string& name) {
   throw core::Error("the set has no such asset", name);
 }
 
-std::vector<viewer::WorldBody> TaskModels::BodiesAtStart(const tasks::InitialState& start) {
-  std::vector<viewer::WorldBody> bodies = {
+std::vector<WorldBody> TaskModels::BodiesAtStart(const tasks::InitialState& start) {
+  std::vector<WorldBody> bodies = {
       {robot_.name, Robot(), start.world_from_robot, true, HomePositions(robot_)}};
   for (const tasks::AssetPlacement& placement : start.placements) {
-    viewer::WorldBody& body = bodies.emplace_back();
+    WorldBody& body = bodies.emplace_back();
     body = {placement.asset, Asset(placement.asset), placement.world_from_asset, placement.fixed};
     for (const tasks::JointCondition& joint : start.joints) {
       if (joint.asset == placement.asset) {
@@ -72,25 +72,24 @@ OrderedJson SubtaskWorld(const tasks::Task& task, const tasks::Subtask& subtask,
   if (!alone) world["group"] = task.name;
   world["description"] =
       alone ? subtask.description : task.description + " – " + subtask.description;
-  viewer::Facts facts = {{"success", subtask.success}, {"source", task.source}};
+  Facts facts = {{"success", subtask.success}, {"source", task.source}};
   if (!subtask.start.held.empty()) facts.emplace_back("held at the start", subtask.start.held);
   for (const core::Finding& finding : subtask.findings) {
     facts.emplace_back("finding", finding.sentence);
   }
-  world["facts"] = viewer::FactsJson(facts);
+  world["facts"] = FactsJson(facts);
   if (!subtask.program.empty()) world["code"] = subtask.program;
   if (subtask.goal) {
     world["markers"] = OrderedJson::array();
-    world["markers"].push_back(
-        {{"name", "goal"}, {"position", viewer::VectorNumbers(*subtask.goal)}});
+    world["markers"].push_back({{"name", "goal"}, {"position", VectorNumbers(*subtask.goal)}});
   }
-  world["bodies"] = viewer::BodiesJson(models->BodiesAtStart(subtask.start));
+  world["bodies"] = BodiesJson(models->BodiesAtStart(subtask.start));
   return world;
 }
 
-std::unique_ptr<viewer::Content> ReadTasksView(const fs::path& file) {
+std::unique_ptr<Content> ReadTasksView(const fs::path& file) {
   const tasks::TaskSet set = tasks::ReadTaskFile(file);
-  viewer::DocumentBuilder builder(
+  DocumentBuilder builder(
       "tasks", fs::absolute(file).lexically_normal().parent_path().filename().string() + "/" +
                    file.filename().string());
   TaskModels models(set, robot::Panda(false), &builder);
@@ -104,12 +103,11 @@ std::unique_ptr<viewer::Content> ReadTasksView(const fs::path& file) {
       }
     } catch (const core::Error& error) {
       fault = error.what();
-      viewer::AddFinding({"view-task-not-shown", core::Severity::kError, task.name, fault},
-                         &builder);
+      AddFinding({"view-task-not-shown", core::Severity::kError, task.name, fault}, &builder);
     }
   }
   if (shown == 0) throw core::Error("no task can be shown: " + fault, file.string());
-  return std::make_unique<viewer::Content>(builder.Take());
+  return std::make_unique<Content>(builder.Take());
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer

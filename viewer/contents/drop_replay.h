@@ -6,7 +6,7 @@
 #include "sim/rigid_body.h"
 #include "viewer/world_document.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 
 // A body that is dropped, or a fixed one.
 struct DroppedBody {
@@ -31,10 +31,9 @@ struct DropOptions {
 // their motion. Track i moves body i of `bodies`. The facts name the body that ends farthest from
 // its pose in `bodies`. Deterministic. Throws core::Error for invalid options, a free body without
 // a mass, and as core::CheckCancelled does.
-viewer::Timeline DropReplay(const std::vector<DroppedBody>& bodies,
-                            const DropOptions& options = {});
+Timeline DropReplay(const std::vector<DroppedBody>& bodies, const DropOptions& options = {});
 
 // Returns the entry `replay` of a world that DropReplay can animate.
 core::OrderedJson DropOffer();
 
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer

@@ -1,4 +1,4 @@
-#include "workflows/view/view_content.h"
+#include "viewer/contents/view_content.h"
 
 #include <algorithm>
 #include <vector>
@@ -7,13 +7,13 @@
 #include "assets/mesh_import.h"
 #include "core/error.h"
 #include "core/json.h"
-#include "workflows/view/asset_view.h"
-#include "workflows/view/rollout_view.h"
-#include "workflows/view/run_view.h"
-#include "workflows/view/scene_view.h"
-#include "workflows/view/task_view.h"
+#include "viewer/contents/asset_view.h"
+#include "viewer/contents/rollout_view.h"
+#include "viewer/contents/run_view.h"
+#include "viewer/contents/scene_view.h"
+#include "viewer/contents/task_view.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 namespace fs = std::filesystem;
 namespace {
 
@@ -43,13 +43,13 @@ std::vector<fs::path> ExportedScenes(const fs::path& folder) {
   return scenes;
 }
 
-std::unique_ptr<viewer::Content> ReadJsonView(const fs::path& file) {
+std::unique_ptr<Content> ReadJsonView(const fs::path& file) {
   const core::JsonDocument document = core::JsonDocument::Read(file, kMaxJson);
   if (document.json().is_object() && document.json().contains("tasks")) return ReadTasksView(file);
   return ReadScenesView({file}, file.filename().string());
 }
 
-std::unique_ptr<viewer::Content> ReadFileView(const fs::path& file) {
+std::unique_ptr<Content> ReadFileView(const fs::path& file) {
   const std::string ending = file.extension().string();
   if (ending == ".json") return ReadJsonView(file);
   if (ending == ".jsonl") return ReadRolloutView(file);
@@ -59,7 +59,7 @@ std::unique_ptr<viewer::Content> ReadFileView(const fs::path& file) {
                     "give a URDF, a mesh, tasks.json, poses (JSON or JSONL), or a folder");
 }
 
-std::unique_ptr<viewer::Content> ReadFolderView(const fs::path& folder) {
+std::unique_ptr<Content> ReadFolderView(const fs::path& folder) {
   if (assets::IsAssetFolder(folder)) return ReadAssetView(folder);
   if (IsPhotoRunFolder(folder)) return ReadPhotoRunView(folder);
   if (IsTrainingFolder(folder)) return ReadTrainingView(folder);
@@ -81,7 +81,7 @@ bool ChangesByItself(const std::string& name) {
 
 }  // namespace
 
-std::unique_ptr<viewer::Content> ReadViewContent(const fs::path& path) {
+std::unique_ptr<Content> ReadViewContent(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) {
     throw core::Error("there is no such file or folder", path.string());
@@ -89,9 +89,9 @@ std::unique_ptr<viewer::Content> ReadViewContent(const fs::path& path) {
   return fs::is_directory(path) ? ReadFolderView(path) : ReadFileView(path);
 }
 
-viewer::ContentSource ViewSource(const fs::path& path) {
+ContentSource ViewSource(const fs::path& path) {
   return {[path] { return ReadViewContent(path); },
-          [path] { return viewer::FingerprintOf(path.string(), ChangesByItself); }};
+          [path] { return FingerprintOf(path.string(), ChangesByItself); }};
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer

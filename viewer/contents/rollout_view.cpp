@@ -1,4 +1,4 @@
-#include "workflows/view/rollout_view.h"
+#include "viewer/contents/rollout_view.h"
 
 #include <algorithm>
 #include <sstream>
@@ -9,7 +9,7 @@
 #include "tasks/task_file.h"
 #include "workflows/skills/skill_motion.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 namespace fs = std::filesystem;
 namespace {
 
@@ -19,7 +19,7 @@ constexpr std::uint64_t kMaxPoseLines = 512ull << 20;  // bytes
 constexpr int kFingertips = 2;
 
 // Appends the columns of objects: the pose and the joints of each.
-void AddObjectTrack(int body, const std::vector<std::string>& joints, viewer::Timeline* timeline) {
+void AddObjectTrack(int body, const std::vector<std::string>& joints, Timeline* timeline) {
   timeline->tracks.push_back({body, timeline->width, joints, timeline->width + 7});
   timeline->width += 7 + static_cast<int>(joints.size());
 }
@@ -35,7 +35,7 @@ void AppendMoment(const core::JsonField& line, std::size_t joints,
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.translation() << numbers[0], numbers[1], numbers[2];
     pose.linear() = turn.normalized().toRotationMatrix();
-    viewer::AppendPose(pose, rows);
+    AppendPose(pose, rows);
     for (std::size_t k = 7; k < numbers.size(); ++k) {
       rows->push_back(static_cast<float>(numbers[k]));
     }
@@ -62,7 +62,7 @@ void AppendContacts(const tasks::WorldState& state, std::vector<float>* rows) {
 }
 
 // Returns the reward of the decision that led to a moment.
-float RewardAt(const RecordedSubtask& subtask, std::size_t moment) {
+float RewardAt(const workflows::RecordedSubtask& subtask, std::size_t moment) {
   if (subtask.decisions.empty()) return 0.0f;
   const std::size_t steps = std::max<std::size_t>(1, subtask.moments.size() - 1);
   const std::size_t before = moment > 0 ? moment - 1 : 0;
@@ -71,14 +71,14 @@ float RewardAt(const RecordedSubtask& subtask, std::size_t moment) {
   return subtask.decisions[decision].reward;
 }
 
-void AppendRecorded(const RecordedSubtask& subtask, std::size_t moment,
+void AppendRecorded(const workflows::RecordedSubtask& subtask, std::size_t moment,
                     const skills::SkillVariant& variant, std::vector<float>* rows) {
-  const RecordedMoment& now = subtask.moments[moment];
+  const workflows::RecordedMoment& now = subtask.moments[moment];
   for (const double q : now.arm) rows->push_back(static_cast<float>(q));
   rows->push_back(static_cast<float>(now.leader));
   for (const int object : variant.placed) {
     const auto i = static_cast<std::size_t>(object);
-    viewer::AppendPose(now.state.roots[i], rows);
+    AppendPose(now.state.roots[i], rows);
     for (const double q : now.state.joints[i]) rows->push_back(static_cast<float>(q));
   }
   rows->push_back(RewardAt(subtask, moment));
@@ -100,7 +100,7 @@ RolloutPoseFile ReadRolloutPoses(const fs::path& file) {
   RolloutPoseFile poses;
   poses.robot = head["robot"].Text();
   poses.task = head["task"].Text();
-  viewer::Timeline& timeline = poses.timeline;
+  Timeline& timeline = poses.timeline;
   timeline.name = "rollout";
   timeline.rate = head["rate"].PositiveNumber();
   const std::vector<std::string> joints = head["joints"].Names();
@@ -130,24 +130,24 @@ RolloutPoseFile ReadRolloutPoses(const fs::path& file) {
 }
 
 OrderedJson RolloutWorld(const RolloutPoseFile& poses, const tasks::TaskSet& set,
-                         TaskModels* models, viewer::DocumentBuilder* builder) {
+                         TaskModels* models, DocumentBuilder* builder) {
   const tasks::Task& task = TaskNamed(set, poses.task);
   OrderedJson world = SubtaskWorld(task, task.subtasks.front(), models);
-  std::vector<viewer::WorldBody> bodies = models->BodiesAtStart(task.subtasks.front().start);
+  std::vector<WorldBody> bodies = models->BodiesAtStart(task.subtasks.front().start);
   bodies.resize(1);
   for (const std::string& name : poses.objects) {
     bodies.push_back({name, models->Asset(name), Eigen::Isometry3d::Identity(), false});
   }
   world["name"] = "rollout of " + task.name;
-  world["bodies"] = viewer::BodiesJson(bodies);
+  world["bodies"] = BodiesJson(bodies);
   world["timelines"] = OrderedJson::array();
-  OrderedJson timeline = viewer::AddTimeline(poses.timeline, builder);
+  OrderedJson timeline = AddTimeline(poses.timeline, builder);
   timeline["shown"] = true;
   world["timelines"].push_back(std::move(timeline));
   return world;
 }
 
-std::unique_ptr<viewer::Content> ReadRolloutView(const fs::path& file) {
+std::unique_ptr<Content> ReadRolloutView(const fs::path& file) {
   const RolloutPoseFile poses = ReadRolloutPoses(file);
   const fs::path tasks_file = fs::absolute(file).parent_path() / "tasks.json";
   if (!fs::exists(tasks_file)) {
@@ -155,21 +155,22 @@ std::unique_ptr<viewer::Content> ReadRolloutView(const fs::path& file) {
                       "let rollout --poses write into the training's folder");
   }
   const tasks::TaskSet set = tasks::ReadTaskFile(tasks_file);
-  viewer::DocumentBuilder builder("rollout", "rollout of " + poses.task);
-  TaskModels models(set, RobotOf(poses.robot), &builder);
+  DocumentBuilder builder("rollout", "rollout of " + poses.task);
+  TaskModels models(set, workflows::RobotOf(poses.robot), &builder);
   builder.AddWorld(RolloutWorld(poses, set, &models, &builder));
-  return std::make_unique<viewer::Content>(builder.Take());
+  return std::make_unique<Content>(builder.Take());
 }
 
-viewer::Timeline EpisodeTimeline(const TrainedTask& task, const ChainRecording& recording) {
-  const RunSkill& first = task.skills().front();
-  const RecordedSubtask& begin = recording.subtasks.front();
+Timeline EpisodeTimeline(const workflows::TrainedTask& task,
+                         const workflows::ChainRecording& recording) {
+  const workflows::RunSkill& first = task.skills().front();
+  const workflows::RecordedSubtask& begin = recording.subtasks.front();
   const skills::SkillVariant& variant =
       first.evaluated->variants[static_cast<std::size_t>(begin.start.variant)];
-  viewer::Timeline timeline;
+  Timeline timeline;
   timeline.name = "episode";
   timeline.rate = first.evaluated->options.control_rate;
-  const std::vector<std::string> joints = MotionJointsOf(*first.evaluated->robot).names;
+  const std::vector<std::string> joints = workflows::MotionJointsOf(*first.evaluated->robot).names;
   timeline.tracks.push_back({0, -1, joints, 0});
   timeline.width = static_cast<int>(joints.size());
   int body = 0;
@@ -187,17 +188,17 @@ viewer::Timeline EpisodeTimeline(const TrainedTask& task, const ChainRecording& 
   timeline.width += 2 + 4 * kFingertips;
   double total = 0.0;
   for (std::size_t k = 0; k < recording.subtasks.size(); ++k) {
-    const RecordedSubtask& subtask = recording.subtasks[k];
+    const workflows::RecordedSubtask& subtask = recording.subtasks[k];
     timeline.marks.push_back({task.skills()[k].name, timeline.frames()});
     for (std::size_t i = 0; i < subtask.moments.size(); ++i) {
       AppendRecorded(subtask, i, variant, &timeline.rows);
     }
-    for (const RecordedDecision& decision : subtask.decisions) total += decision.reward;
+    for (const workflows::RecordedDecision& decision : subtask.decisions) total += decision.reward;
   }
   timeline.facts = {{"episode", std::to_string(recording.episode)},
                     {"success", recording.success ? "yes" : "no"},
-                    {"return", viewer::Quantity(total, "")}};
+                    {"return", Quantity(total, "")}};
   return timeline;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer

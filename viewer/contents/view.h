@@ -7,7 +7,7 @@
 #include "core/finding.h"
 #include "core/progress.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 
 struct ViewRequest {
   // An asset folder, a URDF, a mesh, a folder of assets, a dataset of scenes, an exported scene, a
@@ -40,4 +40,4 @@ void ServeView(const ViewRequest& request,
 std::string ViewTable(const ViewReport& report);
 std::string ViewJson(const ViewReport& report);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer

@@ -1,6 +1,6 @@
 // `simwright view`: the content of every kind of path, compared with what the readers of the
 // library give; drops against free fall; bad input.
-#include "workflows/view/view.h"
+#include "viewer/contents/view.h"
 
 #include <gtest/gtest.h>
 
@@ -13,19 +13,19 @@
 #include "assets/asset_folder.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "program.h"
-#include "running_program.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
-#include "scripted_run.h"
 #include "sim/rigid_body.h"
 #include "tests/assets/sample_asset.h"
+#include "tests/workflows/program.h"
+#include "tests/workflows/running_program.h"
+#include "tests/workflows/scripted_run.h"
+#include "viewer/contents/drop_replay.h"
+#include "viewer/contents/rollout_view.h"
+#include "viewer/contents/view_content.h"
 #include "viewer/document.h"
-#include "workflows/view/drop_replay.h"
-#include "workflows/view/rollout_view.h"
-#include "workflows/view/view_content.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -40,7 +40,7 @@ TEST(DropReplay, FallsFreelyAndThenRestsInItsPlace) {
   place.translation() << 0.3, -0.2, 0.0;
   DropOptions options;
   options.height = 0.08;
-  const viewer::Timeline timeline =
+  const Timeline timeline =
       DropReplay({{"floor", &body, Eigen::Isometry3d(Eigen::Translation3d(5, 5, 0)), true},
                   {"box", &body, place, false}},
                  options);
@@ -199,7 +199,7 @@ TEST_F(ViewScenes, CtrlCEndsTheServer) {
   EXPECT_EQ(outcome.code, 0) << outcome.text;
 }
 
-class ViewRuns : public ScriptedRuns {};
+class ViewRuns : public workflows::ScriptedRuns {};
 
 TEST_F(ViewRuns, ARolloutMovesRobotAndObjectAsItsFileSays) {
   const std::string poses = Pick() + "/poses.jsonl";
@@ -246,7 +246,7 @@ TEST_F(ViewRuns, ATrainingRecordsAnEpisodeOfItsPolicies) {
   EXPECT_FALSE(manifest["worlds"][1].contains("replay"));
   EXPECT_TRUE(manifest["worlds"][0].contains("code"));
   EXPECT_TRUE(content->Charts().empty()) << "its policies have no log";
-  const viewer::Timeline timeline = content->Replay(0);
+  const Timeline timeline = content->Replay(0);
   ASSERT_EQ(timeline.marks.size(), 2u);
   EXPECT_EQ(timeline.facts[1].second, "yes") << "the episode succeeds";
   // The object rises between the fingers, which then hold it: column 8 begins its pose.
@@ -265,7 +265,7 @@ TEST_F(ViewRuns, TasksStartWithTheRobotAtHome) {
   const core::OrderedJson& world = content->document().manifest["worlds"][0];
   EXPECT_EQ(content->document().manifest["kind"], "tasks");
   EXPECT_EQ(world["bodies"][0]["positions"]["panda_joint4"].get<double>(),
-            RobotOf("panda").home()[3]);
+            workflows::RobotOf("panda").home()[3]);
   EXPECT_EQ(world["bodies"][1]["name"], "block");
 }
 
@@ -288,4 +288,4 @@ TEST_F(ViewRuns, TheCurvesOfATrainingAreReadWhileItRuns) {
 }
 
 }  // namespace
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer

@@ -1,4 +1,4 @@
-#include "workflows/view/view.h"
+#include "viewer/contents/view.h"
 
 #include <cstdio>
 
@@ -6,23 +6,22 @@
 #include "core/files.h"
 #include "core/finding_json.h"
 #include "core/json.h"
+#include "viewer/contents/view_content.h"
 #include "viewer/page.h"
 #include "viewer/view_server.h"
-#include "workflows/view/view_content.h"
 
-namespace simwright::workflows {
+namespace simwright::viewer {
 
 ViewReport WriteView(const ViewRequest& request, core::Progress* progress) {
   progress->Stage("read");
-  const std::unique_ptr<viewer::Content> content = ReadViewContent(request.path);
+  const std::unique_ptr<Content> content = ReadViewContent(request.path);
   ViewReport report;
   report.file = request.html;
   const core::OrderedJson& manifest = content->document().manifest;
   report.kind = manifest["kind"].get<std::string>();
-  viewer::SingleFileOptions options;
+  SingleFileOptions options;
   options.worlds = request.most;
-  const std::string page =
-      viewer::SingleFilePage(content.get(), options, progress, &report.findings);
+  const std::string page = SingleFilePage(content.get(), options, progress, &report.findings);
   core::WriteFile(request.html, page);
   report.entries = std::min(request.most, content->WorldCount());
   report.megabytes = static_cast<double>(page.size()) * 1e-6;
@@ -31,7 +30,7 @@ ViewReport WriteView(const ViewRequest& request, core::Progress* progress) {
 
 void ServeView(const ViewRequest& request,
                const std::function<void(const std::string& url)>& started) {
-  viewer::ViewServer server(ViewSource(request.path), request.port);
+  ViewServer server(ViewSource(request.path), request.port);
   started(server.url());
   server.Run();
 }
@@ -50,4 +49,4 @@ std::string ViewJson(const ViewReport& report) {
                                           {"megabytes", report.megabytes}});
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::viewer
