@@ -89,7 +89,7 @@ class Grasps : public ::testing::Test {
 };
 
 constexpr const char* kTwoGrasps =
-    R"({"grasps": {"transforms": [[[1,0,0,0.1],[0,1,0,0],[0,0,1,0],[0,0,0,1]],
+    R"({"grasps": {"tool_transforms": [[[1,0,0,0.1],[0,1,0,0],[0,0,1,0],[0,0,0,1]],
         [[0,-1,0,0.2],[1,0,0,0],[0,0,1,0.3],[0,0,0,1]]], "quality": [0.25, 0.75]}})";
 
 TEST_F(Grasps, TheBestComeFirst) {
@@ -100,6 +100,19 @@ TEST_F(Grasps, TheBestComeFirst) {
   EXPECT_EQ(grasps["poses"][0][11], 0.3);
   EXPECT_EQ(grasps["poses"][1][3], 0.1);
   EXPECT_EQ(Read(kTwoGrasps, 1)["poses"].size(), 1u);
+}
+
+TEST_F(Grasps, PosesOfAHandLeadToItsFingertips) {
+  // A hand that approaches from above at the origin: x closes, z points down.
+  const core::OrderedJson grasps = Read(
+      R"({"grasps": {"transforms": [[[1,0,0,0],[0,-1,0,0],[0,0,-1,0.2],[0,0,0,1]]],
+          "object_in_gripper": [true]}})");
+  const core::OrderedJson& pose = grasps["poses"][0];
+  EXPECT_NEAR(pose[11].get<double>(), 0.2 - 0.1034, 1e-12) << "the fingertips are below the hand";
+  EXPECT_NEAR(pose[1].get<double>(), 1.0, 1e-12) << "the tool's y is the hand's x";
+  EXPECT_NEAR(pose[10].get<double>(), -1.0, 1e-12);
+  EXPECT_EQ(grasps["qualities"][0], 1.0);
+  EXPECT_EQ(grasps["openings"][0], 0.08);
 }
 
 TEST_F(Grasps, DamagedFilesAreRefused) {

@@ -83,13 +83,14 @@ export function qualityColor(quality) {
 }
 
 // Returns a fork for each grasp: two fingers along the approach (z), apart along y, and a stem.
-export function graspGlyph(grasps, opening = 0.04, depth = 0.045) {
-  const fork = [
-    [0, -opening, 0], [0, -opening, -depth], [0, opening, 0], [0, opening, -depth],
-    [0, -opening, -depth], [0, opening, -depth], [0, 0, -depth], [0, 0, -2 * depth]];
+export function graspGlyph(grasps, depth = 0.045) {
   const points = [], colors = [];
   const best = Math.max(1e-9, ...grasps.qualities);
   grasps.poses.forEach((pose, i) => {
+    const side = 0.5 * grasps.openings[i];
+    const fork = [
+      [0, -side, 0], [0, -side, -depth], [0, side, 0], [0, side, -depth],
+      [0, -side, -depth], [0, side, -depth], [0, 0, -depth], [0, 0, -2 * depth]];
     const color = qualityColor(grasps.qualities[i] / best);
     for (const point of fork) {
       points.push(apply(pose, point));

@@ -58,6 +58,11 @@ export function expose(app) {
       app.stage.resize();
       app.stage.setSilhouette(on);
     },
+    // Returns the triangles and draw calls of the last frame.
+    get statistics() {
+      const { triangles, calls } = app.stage.renderer.info.render;
+      return { triangles, calls, software: app.stage.software };
+    },
     // Renders `count` frames one after the other while the view turns; returns the mean in ms.
     timeFrames: async (count) => {
       const gl = app.stage.renderer.getContext();
