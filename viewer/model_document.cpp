@@ -120,8 +120,10 @@ EquivalentBox EquivalentBoxOf(const assets::Inertial& inertial) {
 }
 
 void AddFinding(const core::Finding& finding, DocumentBuilder* builder) {
+  OrderedJson& findings = builder->manifest()["findings"];
   for (OrderedJson& json : core::FindingsJson({finding})) {
-    builder->manifest()["findings"].push_back(std::move(json));
+    const bool known = std::find(findings.begin(), findings.end(), json) != findings.end();
+    if (!known) findings.push_back(std::move(json));
   }
 }
 

@@ -34,7 +34,7 @@ struct EquivalentBox {
 // Its size is zero where the mass is not positive.
 EquivalentBox EquivalentBoxOf(const assets::Inertial& inertial);
 
-// Adds a finding to the manifest.
+// Adds a finding to the manifest, unless it is there already.
 void AddFinding(const core::Finding& finding, DocumentBuilder* builder);
 
 }  // namespace simwright::viewer

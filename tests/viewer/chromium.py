@@ -5,6 +5,7 @@ Needs Python's standard library and Debian's package chromium alone.
 import base64
 import json
 import os
+import re
 import select
 import shutil
 import struct
@@ -24,6 +25,11 @@ FLAGS = [
 def find():
     """Returns the program's path, or None."""
     return os.environ.get("CHROMIUM") or shutil.which("chromium")
+
+
+def plain(text):
+    """Returns a message of the browser without the text of inlined scripts."""
+    return re.sub(r"base64,[A-Za-z0-9+/=]+", "", text)
 
 
 class Chromium:
@@ -106,7 +112,7 @@ class Chromium:
         parameters = event.get("params", {})
         if event.get("method") == "Runtime.exceptionThrown":
             details = parameters["exceptionDetails"]
-            self.errors.append(details.get("exception", {}).get("description", details["text"]))
+            self.errors.append(plain(details.get("exception", {}).get("description", details["text"])))
         elif event.get("method") == "Runtime.consoleAPICalled" and parameters["type"] == "error":
             self.errors.append(str([a.get("value", a.get("description")) for a in parameters["args"]]))
         elif event.get("method") == "Log.entryAdded" and parameters["entry"]["level"] == "error":
@@ -134,7 +140,7 @@ class Chromium:
                            awaitPromise=True)
         if "exceptionDetails" in result:
             details = result["exceptionDetails"]
-            raise RuntimeError(details.get("exception", {}).get("description", details["text"]))
+            raise RuntimeError(plain(details.get("exception", {}).get("description", details["text"])))
         return result["result"].get("value")
 
     def wait(self, condition, seconds=60):

@@ -4,7 +4,7 @@ import { Body } from './bodies.js';
 import { massGlyph } from './glyphs.js';
 import { expose } from './inspection.js';
 import { fillHelp, listen } from './keys.js';
-import { moves } from './kinematics.js';
+import { apply, moves } from './kinematics.js';
 import { MeshStore } from './meshes.js';
 import { Panel } from './panel.js';
 import { openSource, rowsOf } from './source.js';
@@ -12,6 +12,7 @@ import { Stage } from './stage.js';
 import { Player } from './timeline.js';
 
 const POLL_MS = 2000;
+const TOOL_CAMERA = { x: 0.09, z: -0.12 };  // m, in the tool's frame: beside the palm
 
 class App {
   constructor() {
@@ -75,6 +76,7 @@ class App {
     this.bodies = specs.map((spec, i) => new Body(
       i, spec, manifest.models[spec.model], this.store, () => this.stage.changed()));
     for (const body of this.bodies) this.stage.world.add(body.group);
+    if (this.toolCamera && !this.hasTool()) this.setToolCamera(false);
     this.showMarkers(manifest.worlds[index]?.markers ?? []);
     this.panel.build();
     await this.fillLayers(opening);
@@ -244,18 +246,17 @@ class App {
   nextCamera() { this.setToolCamera(!this.toolCamera); }
 
   placeToolCamera() {
-    if (!this.toolCamera) return;
-    const { body, link } = this.tool();
+    const tool = this.toolCamera ? this.tool() : null;
+    if (!tool) return;
+    const { body, link } = tool;
     const pose = body.worldFromLink(link);
-    const at = (z) => new THREE.Vector3(
-      pose[3] + z * pose[2] + 0.07 * pose[0], pose[7] + z * pose[6] + 0.07 * pose[4],
-      pose[11] + z * pose[10] + 0.07 * pose[8]);
+    const at = (x, z) => new THREE.Vector3(...apply(pose, [x, 0, z]));
     const { camera } = this.stage;
     camera.fov = 75;
     camera.near = 0.01;
-    camera.position.copy(at(-0.05));
+    camera.position.copy(at(TOOL_CAMERA.x, TOOL_CAMERA.z));
     camera.up.set(pose[0], pose[4], pose[8]);
-    camera.lookAt(at(1));
+    camera.lookAt(at(0, 0.02));
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld(true);
   }

@@ -16,7 +16,7 @@ function rendersInSoftware() {
 export class Stage {
   constructor(canvas) {
     this.canvas = canvas;
-    this.software = rendersInSoftware();
+    this.software = rendersInSoftware() && location.hash !== '#full';
     this.renderer = new THREE.WebGLRenderer({
       canvas, antialias: !this.software, preserveDrawingBuffer: true });
     this.renderer.shadowMap.enabled = !this.software;
