@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Installs the build and runtime dependencies of Simwright from Debian 12's packages, if they are
 # missing. --tests adds the dependencies of tests and benchmarks (with python3-torch, against which
-# reward programs are compared), --catalogue the furniture of the catalogue tests (120 MB), --fuzz
-# the compiler of the fuzz targets, the formatter, the linter, and what the fast tests link, --bench
-# the libraries that only benchmarks compare with.
+# reward programs are compared, and Chromium, in which the viewer is tested), --catalogue the
+# furniture of the catalogue tests (120 MB), --fuzz the compiler of the fuzz targets, the formatter,
+# the linter, and what the fast tests link, --bench the libraries that only benchmarks compare with.
 #
 # --package adds what makes and tests the Debian package, with .venv-package to build the Python
 # module for it.
@@ -35,7 +35,7 @@ for wanted in "$@"; do
   case $wanted in
     --tests)
       packages+=("${test_libraries[@]}" libbenchmark-dev libbullet-extras-dev
-        python3-torch python3-numpy python3-h5py python3-yaml poppler-utils)
+        python3-torch python3-numpy python3-h5py python3-yaml poppler-utils chromium)
       ;;
     --catalogue) packages+=(sweethome3d-furniture python3-skimage) ;;
     --fuzz)
