@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Installs the build and runtime dependencies of Simwright from Debian 12's packages, if they are
 # missing. --tests adds the dependencies of tests and benchmarks (with python3-torch, against which
-# reward programs are compared), --catalogue the furniture of the catalogue tests (120 MB), --fuzz
-# the compiler of the fuzz targets, the formatter, the linter, and what the fast tests link, --bench
-# the libraries that only benchmarks compare with.
+# reward programs are compared, and Chromium, in which the viewer is tested), --catalogue the
+# furniture of the catalogue tests (120 MB), --fuzz the compiler of the fuzz targets, the formatter,
+# the linter, and what the fast tests link, --bench the libraries that only benchmarks compare with.
 #
 # --package adds what makes and tests the Debian package, with .venv-package to build the Python
 # module for it.
@@ -21,11 +21,11 @@ packages=(
   libeigen3-dev libassimp-dev libdraco-dev libcgal-dev libembree-dev libopencv-dev libopencv-contrib-dev
   libceres-dev libbullet-dev liburdfdom-dev libmujoco-dev nlohmann-json3-dev
   libcli11-dev libcurl4-openssl-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev
-  libconsole-bridge-dev libhdf5-dev libspdlog-dev
+  libconsole-bridge-dev libhdf5-dev libspdlog-dev libcpp-httplib-dev
   wordnet-base libtorch-dev libopenblas0-pthread
   python3-dev python3-venv
 )
-test_libraries=(libgtest-dev libsdformat-dev libcpp-httplib-dev)
+test_libraries=(libgtest-dev libsdformat-dev)
 environments=()
 install_packages=$([ $# -gt 0 ] || echo yes)
 for wanted in "$@"; do
@@ -35,7 +35,7 @@ for wanted in "$@"; do
   case $wanted in
     --tests)
       packages+=("${test_libraries[@]}" libbenchmark-dev libbullet-extras-dev
-        python3-torch python3-numpy python3-h5py python3-yaml poppler-utils)
+        python3-torch python3-numpy python3-h5py python3-yaml poppler-utils chromium)
       ;;
     --catalogue) packages+=(sweethome3d-furniture python3-skimage) ;;
     --fuzz)

@@ -55,6 +55,7 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run);
 void AddReplay(CLI::App* app, CommonOptions* common, Run* run);
 void AddScene(CLI::App* app, CommonOptions* common, Run* run);
 void AddRun(CLI::App* app, CommonOptions* common, Run* run);
+void AddView(CLI::App* app, CommonOptions* common, Run* run);
 void AddDoctor(CLI::App* app, CommonOptions* common, Run* run);
 void AddCompletion(CLI::App* app, CommonOptions* common, Run* run);
 void AddVersion(CLI::App* app, CommonOptions* common, Run* run);

@@ -59,6 +59,7 @@ int Main(int argc, char** argv) {
   cli::AddReplay(&app, &common, &run);
   cli::AddScene(&app, &common, &run);
   cli::AddRun(&app, &common, &run);
+  cli::AddView(&app, &common, &run);
   cli::AddDoctor(&app, &common, &run);
   cli::AddCompletion(&app, &common, &run);
   cli::AddVersion(&app, &common, &run);

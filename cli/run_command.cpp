@@ -8,7 +8,9 @@
 #include "cli/training_options.h"
 #include "cli/usage.h"
 #include "core/error.h"
+#include "viewer/contents/view.h"
 #include "workflows/photo_run/photo_run.h"
+#include "workflows/photo_run/photo_run_folder.h"
 
 namespace simwright::cli {
 namespace {
@@ -18,6 +20,22 @@ struct RunFlags {
   workflows::PhotoRunRequest request;
 };
 
+// Writes the page in 3D beside the run's page. The run is complete without it, so that its faults
+// are warnings.
+void WriteViewer(const workflows::PhotoRunRequest& request, core::Findings* findings) {
+  viewer::ViewRequest view;
+  view.path = request.output;
+  view.html = workflows::PhotoRunFolder{request.output, ""}.Viewer();
+  core::Progress silent;
+  try {
+    const viewer::ViewReport report = viewer::WriteView(view, &silent);
+    findings->insert(findings->end(), report.findings.begin(), report.findings.end());
+  } catch (const core::Error& error) {
+    findings->push_back(
+        {"run-no-viewer", core::Severity::kWarning, "", error.what(), 0.0, "see simwright view"});
+  }
+}
+
 int RunOnPhoto(const RunFlags& flags, const CommonOptions& common) {
   workflows::PhotoRunRequest request = flags.request;
   if (!flags.mask.empty()) request.mask = flags.mask;
@@ -25,7 +43,8 @@ int RunOnPhoto(const RunFlags& flags, const CommonOptions& common) {
   request.force = common.force;
   core::Progress progress(common.ProgressStyle());
   try {
-    const workflows::PhotoRunOutcome outcome = workflows::RunPhoto(request, &progress);
+    workflows::PhotoRunOutcome outcome = workflows::RunPhoto(request, &progress);
+    WriteViewer(request, &outcome.findings);
     if (common.json) {
       PrintJson(outcome.json, outcome.findings);
     } else {

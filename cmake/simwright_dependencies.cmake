@@ -71,6 +71,17 @@ macro(simwright_require_spdlog)
   endif()
 endmacro()
 
+# The definitions of cpp-httplib's package belong to the one source that includes it
+# (viewer/CMakeLists.txt), for the same reason.
+macro(simwright_require_cpp_httplib)
+  simwright_pkg(PkgConfig::cpp_httplib cpp-httplib)
+  if(NOT TARGET simwright_cpp_httplib)
+    add_library(simwright_cpp_httplib INTERFACE IMPORTED)
+    set_property(TARGET simwright_cpp_httplib PROPERTY
+      INTERFACE_LINK_LIBRARIES $<LINK_ONLY:PkgConfig::cpp_httplib>)
+  endif()
+endmacro()
+
 # simwright_require(LINK): finds the package that provides what a module links as LINK.
 macro(simwright_require link)
   if("${link}" STREQUAL "Threads::Threads")
@@ -102,6 +113,8 @@ macro(simwright_require link)
     simwright_require_torch()
   elseif("${link}" STREQUAL "simwright_spdlog")
     simwright_require_spdlog()
+  elseif("${link}" STREQUAL "simwright_cpp_httplib")
+    simwright_require_cpp_httplib()
   elseif("${link}" STREQUAL "PkgConfig::bullet")
     simwright_pkg("${link}" bullet-float64)
   elseif("${link}" STREQUAL "PkgConfig::exif")

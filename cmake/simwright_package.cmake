@@ -28,7 +28,7 @@ if(SIMWRIGHT_PYTHON)
 endif()
 # What a program that links the libraries is compiled with.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "g++, cmake, libassimp-dev, libbullet-dev, libceres-dev, libcgal-dev, libcurl4-openssl-dev, \
+    "g++, cmake, libassimp-dev, libbullet-dev, libceres-dev, libcgal-dev, libcpp-httplib-dev, libcurl4-openssl-dev, \
 libdraco-dev, libeigen3-dev, libembree-dev, libexif-dev, libgif-dev, libhdf5-dev, libmujoco-dev, \
 libopencv-contrib-dev, libopencv-dev, libspdlog-dev, libtinyxml2-dev, libtorch-dev, \
 liburdfdom-dev, libwebp-dev, libzip-dev, nlohmann-json3-dev, python3-h5py")

@@ -45,6 +45,7 @@ const std::vector<Door> kDoors = {
     {std::regex("^tinyxml2\\.h"), {"assets"}},
     {std::regex("^(spdlog|fmt)/"), {"core/log"}},
     {std::regex("^nlohmann/"), {"core/json"}},
+    {std::regex("^httplib"), {"viewer/view_server"}},
     {std::regex("^third_party/xatlas/"), {"texture/uv_atlas"}},
 };
 

@@ -17,7 +17,8 @@ inline const std::map<std::string, int> kFloor = {
     {"capture", 4},  {"library_fit", 5}, {"robot", 4},        {"sim", 5},
     {"tasks", 6},    {"asset_build", 6}, {"scene", 6},        {"validation", 7},
     {"skills", 8},   {"importers", 7},   {"manipulation", 7}, {"workflows", 9},
-    {"steering", 7}, {"certificate", 8}, {"cli", 10},         {"python", 10}};
+    {"steering", 7}, {"certificate", 8}, {"viewer", 10},      {"cli", 11},
+    {"python", 11}};
 
 // An include line of a module.
 struct Include {

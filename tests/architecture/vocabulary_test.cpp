@@ -19,7 +19,7 @@ const std::vector<std::string> kModules = {
     "robot",       "sim",         "asset_build", "tasks",
     "scene",       "validation",  "importers",   "manipulation",
     "skills",      "workflows",   "cli",         "capture",
-    "library_fit", "certificate", "python"};
+    "library_fit", "certificate", "viewer",      "python"};
 
 struct Line {
   std::string place, text;

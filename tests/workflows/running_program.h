@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "core/files.h"
-#include "program.h"
+#include "tests/workflows/program.h"
 
 namespace simwright {
 

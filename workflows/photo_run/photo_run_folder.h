@@ -24,6 +24,8 @@ struct PhotoRunFolder {
   std::filesystem::path Replay() const { return root / "replay.json"; }
   std::filesystem::path Report() const { return root / "report.json"; }
   std::filesystem::path Page() const { return root / "index.html"; }
+  // The page in 3D, to which the other one links; written by the command line (viewer/).
+  std::filesystem::path Viewer() const { return root / "viewer.html"; }
 };
 
 }  // namespace simwright::workflows

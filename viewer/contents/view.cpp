@@ -1,0 +1,52 @@
+#include "viewer/contents/view.h"
+
+#include <cstdio>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/finding_json.h"
+#include "core/json.h"
+#include "viewer/contents/view_content.h"
+#include "viewer/page.h"
+#include "viewer/view_server.h"
+
+namespace simwright::viewer {
+
+ViewReport WriteView(const ViewRequest& request, core::Progress* progress) {
+  progress->Stage("read");
+  const std::unique_ptr<Content> content = ReadViewContent(request.path);
+  ViewReport report;
+  report.file = request.html;
+  const core::OrderedJson& manifest = content->document().manifest;
+  report.kind = manifest["kind"].get<std::string>();
+  SingleFileOptions options;
+  options.worlds = request.most;
+  const std::string page = SingleFilePage(content.get(), options, progress, &report.findings);
+  core::WriteFile(request.html, page);
+  report.entries = std::min(request.most, content->WorldCount());
+  report.megabytes = static_cast<double>(page.size()) * 1e-6;
+  return report;
+}
+
+void ServeView(const ViewRequest& request,
+               const std::function<void(const std::string& url)>& started) {
+  ViewServer server(ViewSource(request.path), request.port);
+  started(server.url());
+  server.Run();
+}
+
+std::string ViewTable(const ViewReport& report) {
+  char line[64];
+  std::snprintf(line, sizeof line, "  %.1f MB, %d %s\n", report.megabytes, report.entries,
+                report.entries == 1 ? "entry" : "entries");
+  return "wrote " + report.file.string() + line;
+}
+
+std::string ViewJson(const ViewReport& report) {
+  return core::JsonText(core::OrderedJson{{"file", report.file.string()},
+                                          {"kind", report.kind},
+                                          {"entries", report.entries},
+                                          {"megabytes", report.megabytes}});
+}
+
+}  // namespace simwright::viewer
