@@ -10,6 +10,7 @@
 #include "core/json.h"
 #include "validation/check.h"
 #include "validation/check_folder.h"
+#include "workflows/check/sim_ready_check.h"
 
 namespace simwright::cli {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 struct CheckFlags {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path root;
-  validation::CheckLimits limits;
+  bool sim_ready = false;
 };
 
 // The reports of all inputs; `many` is true if an input is a folder of assets.
@@ -30,11 +31,14 @@ void CheckInput(const std::filesystem::path& input, const CheckFlags& flags,
                 core::Progress* progress, Checked* checked) {
   if (!std::filesystem::exists(input)) throw core::Error("no such file or folder", input);
   if (!std::filesystem::is_directory(input)) {
-    checked->reports.push_back(validation::CheckUrdf(input, flags.root, flags.limits));
+    checked->reports.push_back(validation::CheckUrdf(input, flags.root));
     return;
   }
+  const auto check = [&flags](const std::filesystem::path& folder) {
+    return flags.sim_ready ? workflows::CheckSimReady(folder) : validation::CheckAsset(folder);
+  };
   if (assets::IsAssetFolder(input)) {
-    checked->reports.push_back(validation::CheckAsset(input, flags.limits));
+    checked->reports.push_back(check(input));
     return;
   }
   const std::vector<std::filesystem::path> folders = validation::AssetFoldersIn(input);
@@ -43,8 +47,7 @@ void CheckInput(const std::filesystem::path& input, const CheckFlags& flags,
                       "give an asset folder, a folder of asset folders, or a .urdf file");
   }
   checked->many = true;
-  for (validation::CheckReport& report :
-       validation::CheckFolders(folders, progress, flags.limits)) {
+  for (validation::CheckReport& report : validation::CheckFolders(folders, progress, check)) {
     checked->reports.push_back(std::move(report));
   }
 }
@@ -101,10 +104,7 @@ void AddCheck(CLI::App* app, CommonOptions* common, Run* run) {
   AddChoice(command, "--profile", {"asset", "simready"}, "asset",
             "What is examined: simready adds a drop from 10 cm, slopes, a stack and grasps, in "
             "Bullet and MuJoCo",
-            [flags](const std::string& name) {
-              flags->limits.profile = name == "simready" ? validation::CheckProfile::kSimReady
-                                                         : validation::CheckProfile::kAsset;
-            });
+            [flags](const std::string& name) { flags->sim_ready = name == "simready"; });
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Check(*flags, *common); }; });
 }

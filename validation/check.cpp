@@ -21,7 +21,6 @@
 #include "validation/check_articulated.h"
 #include "validation/check_joints.h"
 #include "validation/shared_results.h"
-#include "validation/sim_ready_exam.h"
 
 namespace simwright::validation {
 namespace fs = std::filesystem;
@@ -163,9 +162,6 @@ CheckReport CheckAsset(const fs::path& folder, const CheckLimits& limits) {
   CheckReaders(asset, folder, limits, &results);
   AddResultOrFailure("settles-bullet", &results,
                      [&] { CheckDynamics(asset, folder, limits, &results); });
-  if (limits.profile == CheckProfile::kSimReady) {
-    AddSimReadyExam(asset, folder, limits, &results);
-  }
   CheckReport report{folder.string(), {}};
   AddResultOrFailure("appearance", &results, [&] {
     if (const auto photo = ReadAssetPhoto(folder))

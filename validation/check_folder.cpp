@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/finding_text.h"
 #include "core/parallel.h"
-#include "validation/check.h"
 
 namespace simwright::validation {
 namespace fs = std::filesystem;
@@ -28,9 +27,9 @@ void Gather(const fs::path& folder, std::vector<fs::path>* found) {
   }
 }
 
-CheckReport Checked(const fs::path& folder, const CheckLimits& limits) {
+CheckReport Checked(const fs::path& folder, const FolderCheck& check) {
   try {
-    return CheckAsset(folder, limits);
+    return check(folder);
   } catch (const core::Error& error) {
     return {folder.string(), {{"readable", core::Severity::kError, folder.string(), error.what()}}};
   }
@@ -45,12 +44,12 @@ std::vector<fs::path> AssetFoldersIn(const fs::path& folder) {
 }
 
 std::vector<CheckReport> CheckFolders(const std::vector<fs::path>& folders,
-                                      core::Progress* progress, const CheckLimits& limits) {
+                                      core::Progress* progress, const FolderCheck& check) {
   std::vector<CheckReport> reports(folders.size());
   progress->Stage("check", static_cast<int>(folders.size()));
   core::ParallelFor(static_cast<int>(folders.size()), [&](int i) {
     core::CheckCancelled();
-    reports[static_cast<size_t>(i)] = Checked(folders[static_cast<size_t>(i)], limits);
+    reports[static_cast<size_t>(i)] = Checked(folders[static_cast<size_t>(i)], check);
     progress->Advance();
   });
   progress->Finish();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,13 @@ namespace simwright::validation {
 // themselves are not searched.
 std::vector<std::filesystem::path> AssetFoldersIn(const std::filesystem::path& folder);
 
+// The check of an asset folder, such as CheckAsset.
+using FolderCheck = std::function<CheckReport(const std::filesystem::path&)>;
+
 // Checks all folders in parallel. The report of an unreadable folder has a single failed result,
 // "readable".
 std::vector<CheckReport> CheckFolders(const std::vector<std::filesystem::path>& folders,
-                                      core::Progress* progress, const CheckLimits& limits = {});
+                                      core::Progress* progress, const FolderCheck& check);
 
 // Formats one line per asset, followed by its warnings and failures, and a final line with the
 // counts.

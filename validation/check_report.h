@@ -22,13 +22,8 @@ struct CheckReport {
   core::Findings Warnings() const;  // the results that the user must be told about
 };
 
-// What a check examines: kAsset what DESIGN.md asks of an asset; kSimReady also the exam of
-// sim_ready_exam.h.
-enum class CheckProfile { kAsset, kSimReady };
-
-// The profile of a check and its limits (DESIGN.md, "An asset is right when").
+// Limits of a check (DESIGN.md, "An asset is right when").
 struct CheckLimits {
-  CheckProfile profile = CheckProfile::kAsset;
   double surface_distance_ratio = 0.005;  // solid to the visual's outer surface, both directions
   // The distance from the solid's surface to the nearest part over the diagonal. Hulls of 64
   // vertices lie up to 2 % inside a ball.
