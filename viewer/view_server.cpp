@@ -22,7 +22,7 @@ namespace simwright::viewer {
 namespace {
 
 constexpr int kBacklog = 1024;              // connections that wait to be accepted
-constexpr int kThreads = 8;                 // answer requests
+constexpr int kThreads = 16;                // answer requests
 constexpr std::size_t kLargestBody = 1024;  // bytes: a GET has none
 constexpr const char* kJson = "application/json; charset=utf-8";
 constexpr const char* kPolicy =

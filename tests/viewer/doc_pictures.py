@@ -2,8 +2,8 @@
 
     doc_pictures.py SIMWRIGHT FOLDER PICTURES
 
-FOLDER has what the page's commands made: kitchen/microwave_1, dimsum, and apple_run of `simwright
-run`.
+FOLDER has what the page's commands made: kitchen/microwave_1, mugs/mug_1 with its grasps.json, dimsum,
+and apple_run of `simwright run`.
 """
 import pathlib
 import subprocess
@@ -47,6 +47,11 @@ def main():
             browser.run(f"simwright.showLayer('{layer}', {shown})")
         browser.key("d")
         keep("layers")
+        browser.key("d")
+        show("mugs/mug_1")
+        browser.run("simwright.showLayer('grasps', true)")
+        browser.mouse("mouseWheel", 400, 300, deltaX=0, deltaY=450)
+        keep("grasps")
         show("dimsum", "--most", "4")
         browser.drag((450, 300), (330, 330))
         browser.run("simwright.select(simwright.bodies().findIndex((body) => body.name.startsWith('teapot')))")

@@ -238,6 +238,53 @@ class Viewer(unittest.TestCase):
             self.browser.wait("simwright.ready && 'lid' in simwright.links(0)")
             self.browser.wait("document.getElementById('message').textContent === ''")
 
+    def test_objects_are_picked_hidden_and_moved_by_a_timeline(self):
+        # Two boxes that a file of poses places 0.4 m apart, and their drop.
+        reference("box", self.folder / "assets" / "box")
+        poses = self.folder / "poses.json"
+        poses.write_text(json.dumps([
+            {"asset": "assets/box", "name": "left", "translation": [-0.2, 0, 0]},
+            {"asset": "assets/box", "name": "right", "translation": [0.2, 0, 0]}]))
+        self.browser.open(write_page(poses, self.folder / "poses.html"))
+        # The canvas' centre of each box, by the page's own camera.
+        for body, name in enumerate(("left", "right")):
+            x, y = self.browser.run(f"simwright.project(simwright.bodies()[{body}].pose.filter((_, i) => i % 4 === 3)"
+                                    ".map((v, i) => v + (i === 2 ? 0.05 : 0)))")
+            self.browser.click(x, y)
+            self.browser.wait(f"document.querySelector('#panel [aria-current=true]')?.textContent === '{name}'")
+        self.browser.key("h")
+        self.browser.wait("!simwright.bodies()[1].visible")
+        self.assertTrue(self.browser.run("simwright.bodies()[0].visible"))
+        self.browser.key("H")
+        self.browser.run("document.querySelector('[aria-label=\"Show: drop\"]').click()")
+        self.browser.wait("simwright.player")
+        for frame in range(5):  # 0.08 s: still in free fall
+            self.browser.run(f"simwright.seek({frame})")
+            height = self.browser.run("simwright.bodies()[0].pose[11]")
+            self.assertAlmostEqual(height, 0.05 - 0.5 * 9.81 * (frame / 50) ** 2, delta=6e-4)
+        self.browser.key(" ")
+        self.browser.wait("!simwright.player.playing && simwright.player.frame >= simwright.player.last - 1")
+        self.assertAlmostEqual(self.browser.run("simwright.bodies()[1].pose[11]"), 0.0, delta=5e-4)
+
+    def test_grasps_are_drawn(self):
+        grasp = [[1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 0.08], [0, 0, 0, 1]]
+        (self.microwave / "grasps.json").write_text(json.dumps(
+            {"grasps": {"tool_transforms": [grasp], "quality": [0.5], "opening_m": [0.06]}}))
+        try:
+            self.browser.open(write_page(self.microwave, self.folder / "grasps.html"))
+        finally:
+            (self.microwave / "grasps.json").unlink()
+        self.browser.key("7")
+        self.browser.wait("simwright.layers.grasps")
+        # The fingertips lie 6 cm apart along y, at the tool's origin.
+        points = self.browser.run("simwright.glyph(0, 'grasps')")
+        self.assertEqual(len(points), 8)
+        tips = sorted(points[0][1:2] + points[2][1:2])
+        self.assertAlmostEqual(tips[0], -0.03, places=6)
+        self.assertAlmostEqual(tips[1], 0.03, places=6)
+        self.assertAlmostEqual(points[0][2], 0.08, places=6)
+        self.assertAlmostEqual(points[7][2], 0.08 + 0.09, places=6, msg="the stem points back, upwards")
+
     def test_a_phone_has_the_panel_below(self):
         self.browser.size(390, 780, mobile=True)
         self.browser.open(write_page(self.microwave, self.folder / "phone.html"))

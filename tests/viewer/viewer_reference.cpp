@@ -1,6 +1,7 @@
 // The truth that the browser's test compares the page with: forward kinematics by KinematicModel,
 // and silhouettes by render/.
 //   viewer_reference microwave DIR
+//   viewer_reference box DIR
 //   viewer_reference poses PATH [JOINT=POSITION]...
 //   viewer_reference silhouette PATH WIDTH HEIGHT MASK.pgm [JOINT=POSITION]...
 // `poses` prints the pose of each link in the root's frame, 12 numbers row by row; `silhouette`
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "assets/articulated_folder.h"
+#include "assets/asset_folder.h"
 #include "assets/kinematic_model.h"
 #include "assets/link_visuals.h"
 #include "assets/mesh_import.h"
@@ -23,6 +25,7 @@
 #include "library/articulated/articulated_kinds.h"
 #include "render/forward.h"
 #include "render/scene.h"
+#include "tests/assets/sample_asset.h"
 
 namespace simwright {
 namespace {
@@ -126,6 +129,13 @@ int Main(const std::vector<std::string>& arguments) {
     assets::ArticulatedAsset asset = library::MakeMicrowave(options);
     asset.name = path.filename().string();
     assets::WriteArticulatedAsset(asset, path);
+    return 0;
+  }
+  if (arguments[0] == "box") {
+    fs::create_directories(path);
+    assets::Asset asset = assets::SampleAsset();
+    asset.name = path.filename().string();
+    assets::WriteAsset(asset, path);
     return 0;
   }
   const bool silhouette = arguments[0] == "silhouette";

@@ -1,5 +1,6 @@
 // `window.simwright`: what tests and scripts in the browser's console may read and set. docs/viewer.md
 // describes it.
+import * as THREE from './three.module.min.js';
 import { apply } from './kinematics.js';
 
 export function expose(app) {
@@ -29,6 +30,19 @@ export function expose(app) {
     // Returns the matrices with which the links are drawn, column by column. (16)
     drawn: (body) => Object.fromEntries(app.bodies[body].model.links.map(
       (link, i) => [link.name, app.bodies[body].links[i].matrixWorld.toArray()])),
+    // Returns where a point of the world (m) is on the page, pixels.
+    project: (point) => {
+      const { camera, canvas } = app.stage;
+      const seen = new THREE.Vector3(...point).project(camera);
+      const box = canvas.getBoundingClientRect();
+      return [box.left + 0.5 * (1 + seen.x) * box.width, box.top + 0.5 * (1 - seen.y) * box.height];
+    },
+    // Returns the points of a body's symbols of a layer, in the frame of their link.
+    glyph: (body, layer) => app.bodies[body].links.flatMap((link) => link.children)
+      .filter((object) => object.userData.layer === layer).flatMap((object) => {
+        const { array } = object.geometry.attributes.position;
+        return Array.from({ length: array.length / 3 }, (_, i) => [...array.slice(3 * i, 3 * i + 3)]);
+      }),
     setPosition: (body, joint, position) => {
       app.bodies[body].setPosition(app.bodies[body].model.joints.findIndex(({ name }) => name === joint), position);
       app.stage.changed();

@@ -12,7 +12,7 @@ import { Stage } from './stage.js';
 import { Player } from './timeline.js';
 
 const POLL_MS = 2000;
-const TOOL_CAMERA = { x: 0.09, z: -0.12 };  // m, in the tool's frame: beside the palm
+const TOOL_CAMERA = { x: 0.13, z: -0.07 };  // m, in the tool's frame: beside the palm
 
 class App {
   constructor() {
