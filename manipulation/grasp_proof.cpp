@@ -15,7 +15,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr int kBatch = 32;  // candidates between two looks at the number of proved grasps
+constexpr int kBatch = 16;  // candidates between two looks at the number of proved grasps
 constexpr std::uint64_t kSamplerStream = 0, kFirstPerturbationStream = 1;
 
 // Returns a reason without its figures: "slipped in the lift".
