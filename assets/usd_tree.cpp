@@ -165,6 +165,9 @@ void UsdTree::SetMotion(size_t index, UsdPrim* prim) const {
     prim->Apply("MjcJointAPI");
     prim->Set("float newton:friction", UsdFloat(joint.friction));
     prim->Set("uniform double mjc:frictionloss", UsdDouble(joint.friction));
+    // As in MJCF: MuJoCo's own friction is soft, and lets a lever sink by centimetres in seconds.
+    prim->Set("uniform double[] mjc:solreffriction", "[0.004, 1]");
+    prim->Set("uniform double[] mjc:solimpfriction", "[0.9999, 0.9999, 0.001, 0.5, 2]");
   }
 }
 

@@ -171,6 +171,25 @@ bool GraspOptions::IsValid(std::string* error) const {
   return true;
 }
 
+std::vector<Grasp> ProvedGraspsOf(const BodyModel& body, const robot::RobotModel& robot) {
+  std::vector<Grasp> grasps;
+  const robot::Gripper& gripper = robot.gripper;
+  for (const manipulation::Grasp& proved : body.grasps) {
+    if (proved.width >= gripper.MaxOpening()) continue;
+    Grasp grasp;
+    grasp.body_from_tool = proved.object_from_tool;
+    grasp.width = proved.width;
+    grasp.leader = gripper.closed + (gripper.open - gripper.closed) *
+                                        std::min(1.0, proved.opening / gripper.MaxOpening());
+    const Vector3d axis = (proved.contacts[1] - proved.contacts[0]).normalized();
+    const Vector3d from_center = proved.Center() - body.center_of_mass;
+    grasp.center_offset = (from_center - from_center.dot(axis) * axis).norm();
+    grasp.quality = proved.quality;
+    grasps.push_back(grasp);
+  }
+  return grasps;
+}
+
 std::vector<Grasp> SampleGrasps(const BodyModel& body, const robot::RobotModel& robot,
                                 std::uint64_t seed, const GraspOptions& options) {
   return GraspSampler(body, robot, options).Sample(seed);

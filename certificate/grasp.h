@@ -18,6 +18,7 @@ struct Grasp {
   double width = 0.0;          // m between the contacts
   double leader = 0.0;         // position of the gripper's first joint before the fingers close
   double center_offset = 0.0;  // m from the line between the contacts to the centre of mass
+  double quality = 0.0;        // manipulation::Grasp::quality; 0: not proved
 };
 
 struct GraspOptions {
@@ -30,6 +31,10 @@ struct GraspOptions {
 
   bool IsValid(std::string* error) const;
 };
+
+// Returns the proved grasps of a body (BodyModel::grasps) for the gripper of `robot`, without those
+// that are wider than it.
+std::vector<Grasp> ProvedGraspsOf(const BodyModel& body, const robot::RobotModel& robot);
 
 // Returns grasps of a body: both contacts lie within the friction cone of the pair of body and
 // fingertip, the gripper opens wide enough, and it does not touch the body before it closes.

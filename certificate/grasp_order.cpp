@@ -18,6 +18,8 @@ constexpr double kShoulder = 0.333;       // m above the base, about which an ar
 constexpr double kFromAbove = 0.35;       // rad by which straight reaching is preferred
 constexpr double kLevelAxis = 0.5;        // rad of cost for a vertical closing axis
 constexpr double kOffsetCost = 15.0;      // rad of cost per m between grasp and centre of mass
+constexpr double kQualityCost =
+    1.0;  // rad of cost for a proved grasp that no perturbation survives
 constexpr double kBin = std::numbers::pi / 8.0;  // rad of the directions that alternate
 constexpr std::array kApproachShares = {0.0, 0.15, 0.35, 0.6, 1.0};  // of the standoff
 
@@ -31,7 +33,8 @@ double CostOf(const Grasp& grasp, const Isometry3d& world_from_tool, const Vecto
   const double straight = AngleBetween(approach, reach);
   const double above = kFromAbove + AngleBetween(approach, -Vector3d::UnitZ());
   return std::min(straight, above) + kLevelAxis * std::abs(world_from_tool.linear().col(1).z()) +
-         kOffsetCost * grasp.center_offset;
+         kOffsetCost * grasp.center_offset +
+         (grasp.quality > 0.0 ? kQualityCost * (1.0 - grasp.quality) : 0.0);
 }
 
 }  // namespace

@@ -2,17 +2,19 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 
 namespace simwright::certificate {
 
-BodyModel::BodyModel(const sim::RigidBody& body)
+BodyModel::BodyModel(const sim::RigidBody& body, std::vector<manipulation::Grasp> proved)
     : meshes(body.parts),
       center_of_mass(body.inertial.center_of_mass),
       friction(body.friction),
       radius(sim::Radius(body)),
-      physics(std::make_shared<sim::PreparedBody>(sim::ArticulatedBodyFrom(body))) {
+      physics(std::make_shared<sim::PreparedBody>(sim::ArticulatedBodyFrom(body))),
+      grasps(std::move(proved)) {
   if (body.parts.empty()) throw core::Error("a body has no collision parts", body.name);
   for (const core::TriangleMesh& mesh : meshes) {
     parts.push_back({mesh.vertices, 0.0});

@@ -8,6 +8,7 @@
 
 #include "core/mesh.h"
 #include "geometry/distance.h"
+#include "manipulation/grasp.h"
 #include "sim/articulated_world.h"
 #include "sim/rigid_body.h"
 
@@ -16,7 +17,7 @@ namespace simwright::certificate {
 // A rigid body in its forms for planning and physics. Constant; shared by scenes and threads.
 struct BodyModel {
   // Throws core::Error for a body without parts.
-  explicit BodyModel(const sim::RigidBody& body);
+  explicit BodyModel(const sim::RigidBody& body, std::vector<manipulation::Grasp> grasps = {});
 
   std::vector<core::TriangleMesh> meshes;    // convex parts, body frame
   std::vector<geometry::ConvexShape> parts;  // the same
@@ -25,6 +26,9 @@ struct BodyModel {
   double friction = 0.5;
   double radius = 0.0;  // m, the largest distance of a vertex from the centre of mass
   std::shared_ptr<const sim::PreparedBody> physics;
+  // Grasps that were proved for the robot's gripper (manipulation::ProveGrasps), body frame. Empty:
+  // the planner samples grasps.
+  std::vector<manipulation::Grasp> grasps;
 };
 
 struct PlacedBody {

@@ -36,8 +36,12 @@ const std::vector<Grasp>& Planner::GraspsOf(const std::shared_ptr<const BodyMode
     if (!slot) slot = std::make_unique<Grasps>();
     entry = slot.get();
   }
-  std::call_once(entry->once,
-                 [&] { entry->grasps = SampleGrasps(*body, robot_, seed_, grasp_options_); });
+  std::call_once(entry->once, [&] {
+    entry->grasps = ProvedGraspsOf(*body, robot_);
+    if (entry->grasps.empty()) {
+      entry->grasps = SampleGrasps(*body, robot_, seed_, grasp_options_);
+    }
+  });
   return entry->grasps;
 }
 

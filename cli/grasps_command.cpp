@@ -6,6 +6,7 @@
 #include "cli/findings_output.h"
 #include "core/finding.h"
 #include "workflows/grasps/grasp_making.h"
+#include "workflows/grasps/pick_test.h"
 
 namespace simwright::cli {
 namespace {
@@ -28,6 +29,17 @@ int Grasps(workflows::GraspRequest request, const CommonOptions& common) {
   const bool all = std::all_of(reports.begin(), reports.end(),
                                [](const auto& report) { return report.error.empty(); });
   return all ? 0 : 1;
+}
+
+int PickTest(const workflows::GraspRequest& request, int poses, const CommonOptions& common) {
+  core::Progress progress(common.ProgressStyle());
+  const auto rows = workflows::RunPickTest({request.assets, poses, common.seed}, &progress);
+  if (common.json) {
+    PrintJson(workflows::PickTestJson(rows), {});
+  } else {
+    std::fputs(workflows::PickTestTable(rows).c_str(), stdout);
+  }
+  return 0;
 }
 
 }  // namespace
@@ -58,9 +70,20 @@ void AddGrasps(CLI::App* app, CommonOptions* common, Run* run) {
       ->default_str("that of the file");
   command->add_option("-o,--output", request->output, "The file to write, for one asset")
       ->default_str("grasps.json in each asset's folder");
+  auto poses = std::make_shared<int>(0);
+  command
+      ->add_option("--pick-test", *poses,
+                   "Make no grasps: plan and simulate so many picks of each object by the Panda, "
+                   "with its grasps.json and with grasps of the planner's own")
+      ->check(CLI::Range(1, 1000))
+      ->default_str("none");
   AddForce(command, common);
   AddCommon(command, common);
-  command->callback([request, common, run] { *run = [=] { return Grasps(*request, *common); }; });
+  command->callback([=] {
+    *run = [=] {
+      return *poses > 0 ? PickTest(*request, *poses, *common) : Grasps(*request, *common);
+    };
+  });
 }
 
 }  // namespace simwright::cli

@@ -22,6 +22,8 @@ struct Grasp {
   // The contacts of the fingers at -y and +y with the outward normals of the surface, object frame.
   std::array<Eigen::Vector3d, 2> contacts = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   std::array<Eigen::Vector3d, 2> normals = {-Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitY()};
+  // True if the gripper also clears the plane z = 0 of the object's frame, on which it stands.
+  bool clears_support = false;
   // The share of trials from perturbed poses in which the object was held; 0 before the proof.
   double quality = 0.0;
 

@@ -49,6 +49,7 @@ core::OrderedJson GraspArrays(const GraspSet& set) {
   core::OrderedJson transforms = core::OrderedJson::array(), held = transforms;
   core::OrderedJson quality = transforms, tools = transforms, widths = transforms;
   core::OrderedJson openings = transforms, contacts = transforms, normals = transforms;
+  core::OrderedJson clears = transforms;
   for (const Grasp& grasp : set.grasps) {
     transforms.push_back(MatrixJson(GraspGenPose(set, grasp)));
     held.push_back(true);
@@ -56,12 +57,13 @@ core::OrderedJson GraspArrays(const GraspSet& set) {
     tools.push_back(MatrixJson(grasp.object_from_tool));
     widths.push_back(grasp.width);
     openings.push_back(grasp.opening);
+    clears.push_back(grasp.clears_support);
     contacts.push_back({VectorJson(grasp.contacts[0]), VectorJson(grasp.contacts[1])});
     normals.push_back({VectorJson(grasp.normals[0]), VectorJson(grasp.normals[1])});
   }
   return {{"transforms", transforms}, {"object_in_gripper", held}, {"quality", quality},
           {"tool_transforms", tools}, {"width_m", widths},         {"opening_m", openings},
-          {"contacts_m", contacts},   {"normals", normals}};
+          {"contacts_m", contacts},   {"normals", normals},        {"clears_support", clears}};
 }
 
 }  // namespace
@@ -153,8 +155,10 @@ GraspSet ReadGraspSet(const std::filesystem::path& file) {
   const std::vector<double> openings = grasps["opening_m"].Numbers(tools.size());
   const std::vector<core::JsonField> contacts = grasps["contacts_m"].Elements(tools.size());
   const std::vector<core::JsonField> normals = grasps["normals"].Elements(tools.size());
+  const std::vector<core::JsonField> clears = grasps["clears_support"].Elements(tools.size());
   for (size_t i = 0; i < tools.size(); ++i) {
     Grasp grasp;
+    grasp.clears_support = clears[i].Flag();
     grasp.object_from_tool = PoseFrom(tools[i]);
     grasp.quality = quality[i];
     grasp.width = widths[i];

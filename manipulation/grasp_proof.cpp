@@ -1,6 +1,7 @@
 #include "manipulation/grasp_proof.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdio>
 #include <optional>
@@ -15,7 +16,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr int kBatch = 32;  // candidates between two looks at the number of proved grasps
+constexpr int kBatch = 16;  // candidates between two looks at the number of proved grasps
 constexpr std::uint64_t kSamplerStream = 0, kFirstPerturbationStream = 1;
 
 // Returns a reason without its figures: "slipped in the lift".
@@ -127,6 +128,31 @@ void RequireLiftable(const GraspObject& object, const sim::GripperModel& gripper
   throw core::Error(std::string("no grasp: ") + text, object.name, "use a stronger gripper");
 }
 
+// Returns the order in which candidates are tried: diverse ones, those that clear the support and
+// the others in turn, so that an object can be grasped where it stands.
+std::vector<int> TrialOrder(const std::vector<Grasp>& candidates, int count) {
+  std::array<std::vector<int>, 2> orders;
+  for (const bool clears : {true, false}) {
+    std::vector<Grasp> some;
+    std::vector<int> indices;
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      if (candidates[i].clears_support != clears) continue;
+      some.push_back(candidates[i]);
+      indices.push_back(static_cast<int>(i));
+    }
+    for (const int index : FarthestGrasps(some, count)) {
+      orders[clears ? 0 : 1].push_back(indices[static_cast<size_t>(index)]);
+    }
+  }
+  std::vector<int> order;
+  for (size_t i = 0; i < std::max(orders[0].size(), orders[1].size()); ++i) {
+    for (const std::vector<int>& one : orders) {
+      if (i < one.size() && static_cast<int>(order.size()) < count) order.push_back(one[i]);
+    }
+  }
+  return order;
+}
+
 }  // namespace
 
 bool GraspProofOptions::IsValid(std::string* error) const {
@@ -165,8 +191,7 @@ ProvedGrasps ProveGrasps(const GraspObject& object, const sim::GripperModel& gri
                       "use another gripper");
   }
   const std::vector<Grasp>& candidates = result.sampling.grasps;
-  const std::vector<int> order =
-      FarthestGrasps(candidates, options.count * options.tries_per_grasp);
+  const std::vector<int> order = TrialOrder(candidates, options.count * options.tries_per_grasp);
   const GraspProver prover(object, gripper, options, result.friction, seed);
   if (progress != nullptr) progress->Stage("grasps of " + object.name, options.count);
   for (size_t first = 0; first < order.size(); first += kBatch) {

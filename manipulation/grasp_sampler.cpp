@@ -19,10 +19,11 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kStep = 1e-7;  // m past a hit, to find the next one
-constexpr int kMostHits = 64;   // of a line
-// How far (m) the contacts lie from the tool's origin towards the fingertips, tried in this order.
-constexpr std::array kTipOffsets = {0.0, 0.006};
+constexpr double kStep = 1e-7;          // m past a hit, to find the next one
+constexpr int kMostHits = 64;           // of a line
+constexpr double kDownwardTilt = 0.5;   // rad by which downward approaches vary
+constexpr double kSteepEnough = 0.2;    // sine between a closing axis and the vertical
+constexpr double kSupportGap = 0.0015;  // m between the gripper and the plane z = 0
 
 // A surface point where a line leaves the solid.
 struct Exit {
@@ -170,18 +171,22 @@ class AntipodalSampler {
       const double turn = core::Uniform(rng_, 0.0, 2.0 * std::numbers::pi);
       if (AddGrasp(Eigen::AngleAxisd(turn, axis) * side, axis, grasp)) found = true;
     }
+    const Vector3d down = -Vector3d::UnitZ() + axis.z() * axis;
+    for (int i = 0; i < options_.downward_approaches && down.norm() > kSteepEnough; ++i) {
+      const double turn = core::Uniform(rng_, -kDownwardTilt, kDownwardTilt);
+      if (AddGrasp(Eigen::AngleAxisd(turn, axis) * down.normalized(), axis, grasp)) found = true;
+    }
     if (!found) ++result_.colliding;
   }
 
   bool AddGrasp(const Vector3d& approach, const Vector3d& axis, Grasp grasp) {
     grasp.object_from_tool.linear() << axis.cross(approach), axis, approach;
-    for (const double offset : kTipOffsets) {
-      grasp.object_from_tool.translation() = grasp.Center() - offset * approach;
-      if (!clearance_.IsFree(grasp.object_from_tool, grasp.opening)) continue;
-      result_.grasps.push_back(grasp);
-      return true;
-    }
-    return false;
+    const double offset = core::Uniform(rng_, 0.0, options_.largest_tip_offset);
+    grasp.object_from_tool.translation() = grasp.Center() - offset * approach;
+    if (!clearance_.IsFree(grasp.object_from_tool, grasp.opening)) return false;
+    grasp.clears_support = clearance_.LowestPoint(grasp.object_from_tool) > kSupportGap;
+    result_.grasps.push_back(grasp);
+    return true;
   }
 
   const sim::GripperModel& gripper_;
@@ -268,14 +273,28 @@ bool GraspClearance::IsFree(const Isometry3d& object_from_tool, double opening) 
          are_free(shapes_->palm, 0.0);
 }
 
+double GraspClearance::LowestPoint(const Isometry3d& object_from_tool) const {
+  double lowest = HUGE_VAL;
+  for (const auto* shapes : {&shapes_->palm, &shapes_->fingers[0], &shapes_->fingers[1]}) {
+    for (const geometry::ConvexShape& shape : *shapes) {
+      for (const Vector3d& vertex : shape.vertices) {
+        lowest = std::min(lowest, (object_from_tool * vertex).z() - shape.radius);
+      }
+    }
+  }
+  const double back = -approach_ * object_from_tool.linear()(2, 2);
+  return lowest + std::min(0.0, back);
+}
+
 bool GraspSamplerOptions::IsValid(std::string* error) const {
   const auto fail = [&](const char* text) {
     if (error != nullptr) *error = text;
     return false;
   };
-  if (candidates < 1 || samples < 1 || approaches < 1) {
+  if (candidates < 1 || samples < 1 || approaches < 1 || downward_approaches < 0) {
     return fail("candidates, samples and approaches must be positive");
   }
+  if (!(largest_tip_offset >= 0.0)) return fail("largest_tip_offset must not be negative");
   if (!(largest_angle > 0.0) || largest_angle > 1.5) return fail("largest_angle must be 0 to 1.5");
   if (!(least_width >= 0.0) || !(least_clearance >= 0.0) ||
       !(finger_clearance >= least_clearance)) {

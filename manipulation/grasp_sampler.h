@@ -11,9 +11,12 @@
 namespace simwright::manipulation {
 
 struct GraspSamplerOptions {
-  int candidates = 3000;           // at most, collision-free
-  int samples = 20000;             // surface points, at most
-  int approaches = 4;              // random approach directions tried per pair of contacts
+  int candidates = 3000;              // at most, collision-free
+  int samples = 20000;                // surface points, at most
+  int approaches = 4;                 // random approach directions tried per pair of contacts
+  int downward_approaches = 2;        // and such near the steepest downwards
+  double largest_tip_offset = 0.008;  // m, contacts lie up to so much nearer to the tips than the
+                                      // tool frame: flat objects on a table need it
   double largest_angle = 0.25;     // rad between closing axis and normals, within the friction cone
   double least_width = 0.003;      // m: thinner objects pass between the pads' contacts
   double finger_clearance = 0.01;  // m that each finger opens beyond its contact, if it can
@@ -46,8 +49,8 @@ struct GraspSampling {
 GraspSampling SampleAntipodalGrasps(const GraspObject& object, const sim::GripperModel& gripper,
                                     const GraspSamplerOptions& options, core::Rng& rng);
 
-// Returns true if the gripper, opened by `opening` (m), hits no part of the object at the pose and
-// on the last `approach` (m) of a straight path along its z axis.
+// Collision checks of a gripper against an object, at a pose and on the last `approach` (m) of a
+// straight path to it along the tool's z axis.
 class GraspClearance {
  public:
   GraspClearance(const GraspObject& object, const sim::GripperModel& gripper, double approach,
@@ -57,6 +60,8 @@ class GraspClearance {
   GraspClearance& operator=(const GraspClearance&) = delete;
 
   bool IsFree(const Eigen::Isometry3d& object_from_tool, double opening) const;
+  // Returns the least z (m, object frame) of the open gripper there and on the path.
+  double LowestPoint(const Eigen::Isometry3d& object_from_tool) const;
 
  private:
   struct Shapes;

@@ -9,7 +9,7 @@
 
 namespace simwright::sim {
 
-// What a grasp trial sets up in an engine.
+// The settings of the two bodies of a grasp trial.
 struct GraspRigOptions {
   double friction = 0.5;      // of the object against fingers, palm and floor
   double finger_speed = 0.1;  // m/s of each finger while nothing is between them

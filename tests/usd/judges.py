@@ -32,6 +32,7 @@ def newton_model(layer, floor=False):
     Newton reads the positions of joints at the start by the schemas of PhysX.
     """
     builder = newton.ModelBuilder()
+    newton.solvers.SolverMuJoCo.register_custom_attributes(builder)  # reads mjc:solreffriction
     builder.add_usd(str(layer), schema_resolvers=[newton.usd.SchemaResolverNewton(),
                                                   newton.usd.SchemaResolverPhysx()])
     if floor:

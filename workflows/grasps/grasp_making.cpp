@@ -10,10 +10,10 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/json.h"
+#include "manipulation/grasp_formats.h"
 #include "manipulation/grasp_proof.h"
 #include "manipulation/parallel_gripper.h"
 #include "sim/rigid_body.h"
-#include "workflows/grasps/grasp_formats.h"
 #include "workflows/grasps/grasp_preview.h"
 
 namespace simwright::workflows {
@@ -27,10 +27,11 @@ struct GraspOutput {
   fs::path file, picture;
 };
 
-GraspOutput OutputOf(const GraspRequest& request, const fs::path& asset, GraspFormat format) {
+GraspOutput OutputOf(const GraspRequest& request, const fs::path& asset,
+                     manipulation::GraspFormat format) {
   GraspOutput output;
-  output.file =
-      request.output.empty() ? asset / ("grasps" + GraspExtension(format)) : request.output;
+  output.file = request.output.empty() ? asset / ("grasps" + manipulation::GraspExtension(format))
+                                       : request.output;
   output.picture = output.file;
   output.picture.replace_extension(".png");
   if (fs::exists(output.file) && !request.force) {
@@ -54,8 +55,8 @@ void RequireRigid(const fs::path& folder) {
 }
 
 GraspReport GraspsOf(const fs::path& folder, const manipulation::ParallelGripper& gripper,
-                     const GraspRequest& request, const GraspOutput& output, GraspFormat format,
-                     core::Progress* progress) {
+                     const GraspRequest& request, const GraspOutput& output,
+                     manipulation::GraspFormat format, core::Progress* progress) {
   GraspReport report;
   const assets::Asset asset = assets::ReadAsset(folder);
   report.asset = asset.name;
@@ -88,7 +89,7 @@ GraspReport GraspsOf(const fs::path& folder, const manipulation::ParallelGripper
                                static_cast<double>(report.set.grasps.size())});
   }
   core::WritePng(output.picture, GraspPreview(asset, report.set));
-  WriteGrasps(report.set, asset, format, output.file);
+  manipulation::WriteGrasps(report.set, asset, format, output.file);
   report.file = output.file;
   report.picture = output.picture;
   return report;
@@ -113,9 +114,10 @@ std::vector<GraspReport> MakeGrasps(const GraspRequest& request, core::Progress*
     throw core::Error("one output file for several assets", request.output.string(),
                       "leave -o out: the grasps go into each asset's folder");
   }
-  const GraspFormat format = request.format.empty() && request.output.empty()
-                                 ? GraspFormat::kJson
-                                 : GraspFormatOf(request.format, request.output);
+  const manipulation::GraspFormat format =
+      request.format.empty() && request.output.empty()
+          ? manipulation::GraspFormat::kJson
+          : manipulation::GraspFormatOf(request.format, request.output);
   const manipulation::ParallelGripper gripper = manipulation::ReadGripper(request.gripper);
   std::vector<GraspOutput> outputs;
   for (const fs::path& folder : request.assets) {

@@ -6,7 +6,7 @@
 #include "assets/asset.h"
 #include "manipulation/grasp_file.h"
 
-namespace simwright::workflows {
+namespace simwright::manipulation {
 
 // The forms of a file of grasps (docs/grasps.md).
 enum class GraspFormat { kJson, kIsaac, kAcronym, kMjcf, kUsd };
@@ -18,12 +18,12 @@ GraspFormat GraspFormatOf(const std::string& name, const std::filesystem::path& 
 std::string GraspExtension(GraspFormat format);
 
 // Returns the text of a file of grasps.
-std::string IsaacGraspText(const manipulation::GraspSet& set);
-std::string MjcfGraspText(const manipulation::GraspSet& set);
-std::string UsdGraspText(const manipulation::GraspSet& set);
+std::string IsaacGraspText(const GraspSet& set);
+std::string MjcfGraspText(const GraspSet& set);
+std::string UsdGraspText(const GraspSet& set);
 
 // Writes a file of any format. `asset` gives ACRONYM's properties of the object.
-void WriteGrasps(const manipulation::GraspSet& set, const assets::Asset& asset, GraspFormat format,
+void WriteGrasps(const GraspSet& set, const assets::Asset& asset, GraspFormat format,
                  const std::filesystem::path& file);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::manipulation

@@ -1,4 +1,4 @@
-#include "workflows/grasps/grasp_formats.h"
+#include "manipulation/grasp_formats.h"
 
 #include <algorithm>
 #include <array>
@@ -11,14 +11,12 @@
 #include "core/files.h"
 #include "core/hdf5.h"
 
-namespace simwright::workflows {
+namespace simwright::manipulation {
 namespace fs = std::filesystem;
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using manipulation::Grasp;
-using manipulation::GraspSet;
 
 struct GraspFormatRow {
   GraspFormat format;
@@ -74,8 +72,7 @@ void WriteAcronym(const GraspSet& set, const assets::Asset& asset, const fs::pat
   std::vector<double> transforms, quality;
   std::vector<std::uint8_t> held;
   for (const Grasp& grasp : set.grasps) {
-    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix =
-        manipulation::GraspGenPose(set, grasp).matrix();
+    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = GraspGenPose(set, grasp).matrix();
     transforms.insert(transforms.end(), matrix.data(), matrix.data() + 16);
     quality.push_back(grasp.quality);
     held.push_back(1);
@@ -130,7 +127,7 @@ std::string IsaacGraspText(const GraspSet& set) {
                      set.object + "\"\ngripper_frame_link: \"" + set.base_link + "\"\n\ngrasps:\n";
   for (size_t i = 0; i < set.grasps.size(); ++i) {
     const Grasp& grasp = set.grasps[i];
-    const Isometry3d base = manipulation::BaseLinkPose(set, grasp);
+    const Isometry3d base = BaseLinkPose(set, grasp);
     const Eigen::Quaterniond turn = Rotation(base);
     const Vector3d& at = base.translation();
     text += "  \"" + GraspName(i) + "\":\n    confidence: " + NumberText(grasp.quality);
@@ -201,7 +198,7 @@ void WriteGrasps(const GraspSet& set, const assets::Asset& asset, GraspFormat fo
                  const fs::path& file) {
   switch (format) {
     case GraspFormat::kJson:
-      core::WriteFile(file, core::JsonText(manipulation::GraspSetJson(set)));
+      core::WriteFile(file, core::JsonText(GraspSetJson(set)));
       return;
     case GraspFormat::kIsaac:
       core::WriteFile(file, IsaacGraspText(set));
@@ -218,4 +215,4 @@ void WriteGrasps(const GraspSet& set, const assets::Asset& asset, GraspFormat fo
   }
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::manipulation

@@ -1,0 +1,59 @@
+// `simwright grasps`: its file, its picture, and its errors.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/files.h"
+#include "core/json.h"
+#include "manipulation/grasp_file.h"
+#include "program.h"
+
+namespace simwright::workflows {
+namespace {
+namespace fs = std::filesystem;
+
+// Makes an asset of a kind of the library in `folder` and returns its folder.
+std::string AssetOf(const std::string& kind, const fs::path& folder) {
+  const Outcome made = RunProgram("library --kind " + kind + " --no-check --quiet -o " +
+                                  (folder / "library").string());
+  EXPECT_EQ(made.code, 0) << made.text;
+  return (folder / "library" / (kind + "_1")).string();
+}
+
+void ExpectGraspError(const std::string& arguments, const std::string& says) {
+  const Outcome outcome = RunProgram("grasps " + arguments);
+  EXPECT_EQ(outcome.code, 1) << outcome.text;
+  EXPECT_NE(outcome.text.find(says), std::string::npos) << outcome.text;
+}
+
+TEST(GraspsCommand, WritesProvedGraspsAndPicksWithThem) {
+  const core::TemporaryFolder folder;
+  const std::string soap = AssetOf("soap", folder.path());
+  const Outcome made = RunProgram("grasps " + soap + " --count 8 --json", "/dev/null");
+  ASSERT_EQ(made.code, 0) << made.text;
+  const core::Json report = core::ParseJson(made.text, "the report");
+  EXPECT_EQ(report["assets"][0]["grasps"], 8);
+  EXPECT_GE(report["assets"][0]["held_in_both"], 8);
+  const manipulation::GraspSet set =
+      manipulation::ReadGraspSet(fs::path(soap) / manipulation::kGraspFileName);
+  EXPECT_EQ(set.grasps.size(), 8u);
+  EXPECT_EQ(set.object, "soap_1");
+  EXPECT_TRUE(fs::exists(fs::path(soap) / "grasps.png"));
+  ExpectGraspError(soap + " --count 8", "use --force to replace it");
+  ExpectGraspError(soap + " -o " + (folder.path() / "a.txt").string(), "is no format of grasps");
+  ExpectGraspError(soap + " --gripper hand.urdf", "no such gripper");
+  const Outcome picks = RunProgram("grasps " + soap + " --pick-test 2 --json", "/dev/null");
+  ASSERT_EQ(picks.code, 0) << picks.text;
+  EXPECT_EQ(core::ParseJson(picks.text, "the picks")["picks"][0]["with_proved"], 2) << picks.text;
+}
+
+TEST(GraspsCommand, SaysWhatItCannotGrasp) {
+  const core::TemporaryFolder folder;
+  ExpectGraspError(AssetOf("board_game_large", folder.path()), "no grasp: ");
+  ExpectGraspError(AssetOf("light_switch", folder.path()), "is an articulated asset");
+  ExpectGraspError((folder.path() / "nothing").string(), "holds no asset.json");
+}
+
+}  // namespace
+}  // namespace simwright::workflows
