@@ -127,6 +127,28 @@ TEST_F(Grasps, DamagedFilesAreRefused) {
                core::Error);
 }
 
+// A file that is cut off anywhere, or has another byte anywhere, is read or refused.
+TEST_F(Grasps, MutilatedFilesAreReadOrRefused) {
+  const std::string text = kTwoGrasps;
+  int refused = 0;
+  const auto read = [&](const std::string& mutilated) {
+    try {
+      Read(mutilated);
+    } catch (const core::Error&) {
+      ++refused;
+    }
+  };
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    read(text.substr(0, at));
+    for (const char byte : {'9', '"', '[', '-', '\0', '\xff'}) {
+      std::string changed = text;
+      changed[at] = byte;
+      read(changed);
+    }
+  }
+  EXPECT_GT(refused, static_cast<int>(text.size()));
+}
+
 TEST(WorldDocument, ATimelineCountsItsFrames) {
   Timeline timeline;
   timeline.width = 9;

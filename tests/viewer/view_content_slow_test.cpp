@@ -237,6 +237,33 @@ TEST_F(ViewRuns, ARolloutMovesRobotAndObjectAsItsFileSays) {
   EXPECT_EQ(timeline["frames"].get<std::size_t>(), frame);
 }
 
+TEST(RolloutPoses, MutilatedFilesAreReadOrRefused) {
+  const core::TemporaryFolder folder;
+  const std::string text =
+      R"({"format":1,"robot":"panda","task":"t","episode":0,"success":true,"rate":60,"joints":["a"],)"
+      R"("things":[{"name":"b","joints":[]}],"subtasks":[{"name":"s","lines":1}]})"
+      "\n"
+      R"({"q":[0.5],"things":[[1,2,3,1,0,0,0]]})"
+      "\n";
+  const auto frames = [&](const std::string& mutilated) {
+    core::WriteFile(folder.path() / "poses.jsonl", mutilated);
+    try {
+      return ReadRolloutPoses(folder.path() / "poses.jsonl").timeline.frames();
+    } catch (const core::Error&) {
+      return 0;
+    }
+  };
+  EXPECT_EQ(frames(text), 1);
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    EXPECT_LE(frames(text.substr(0, at)), 1);
+    for (const char byte : {'9', '"', '[', '-', '\n', '\xff'}) {
+      std::string changed = text;
+      changed[at] = byte;
+      EXPECT_LE(frames(changed), 1) << at << " " << byte;
+    }
+  }
+}
+
 TEST_F(ViewRuns, ATrainingRecordsAnEpisodeOfItsPolicies) {
   const auto content = ReadViewContent(Move());
   const core::OrderedJson& manifest = content->document().manifest;

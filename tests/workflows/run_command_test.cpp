@@ -110,7 +110,7 @@ TEST_F(RunCommand, APhotoBecomesAReportAndAPageThatAgreeWithTheOtherCommands) {
   EXPECT_EQ(json::parse(run.text), report);
   for (const char* file : {"apple/apple.urdf", "apple/preview.png", "check.json", "tasks.json",
                            "skill/1_close_drawer_unit_1_drawer_1/policy.pt", "rollout.png",
-                           "poses.jsonl", "trajectory.yaml", "index.html"}) {
+                           "poses.jsonl", "trajectory.yaml", "index.html", "viewer.html"}) {
     EXPECT_TRUE(fs::exists(Path("out/") + file)) << file;
   }
 

@@ -58,21 +58,39 @@ export class Panel {
       world.code ? element('details', {}, element('summary', {}, 'Reward program'),
         element('pre', {}, world.code)) : null];
     if (worlds.length < 2) return about.some(Boolean) ? section('About', about) : null;
-    const items = worlds.map(({ name, group }, i) => element('li', {},
-      element('button', {
-        type: 'button', class: 'wide', 'aria-current': String(i === app.index),
-        onclick: () => app.open(i),
-      }, group ? `${group}: ${name}` : name)));
-    const list = element('ul', { class: 'list', 'aria-label': 'Entries' }, items);
-    requestAnimationFrame(() => {
-      const item = items[app.index];
-      if (item) list.scrollTop = item.offsetTop - list.offsetTop - 40;
+    const number = element('input', {
+      type: 'number', min: 1, max: worlds.length, 'aria-label': 'Number of the entry',
+      onchange: () => {
+        const index = Math.round(Number(number.value)) - 1;
+        if (index >= 0 && index < worlds.length) app.open(index);
+      },
     });
+    number.value = app.index + 1;
     return section(`${app.index + 1} of ${worlds.length}`,
       element('div', { class: 'row' },
-        button('← Previous', 'Previous entry (p)', () => app.step(-1)),
+        button('← Previous', 'Previous entry (p)', () => app.step(-1)), number,
         button('Next →', 'Next entry (n)', () => app.step(1))),
-      list, about);
+      this.entryList(worlds), about);
+  }
+
+  // Returns the list of the entries, with the current one marked. It is made once for a manifest:
+  // there may be thousands.
+  entryList(worlds) {
+    const { app } = this;
+    if (this.listOf !== worlds) {
+      this.listOf = worlds;
+      this.entries = worlds.map(({ name, group }, i) => element('button', {
+        type: 'button', class: 'wide', onclick: () => app.open(i),
+      }, group ? `${group}: ${name}` : name));
+      this.list = element('ul', { class: 'list', 'aria-label': 'Entries' },
+        this.entries.map((entry) => element('li', {}, entry)));
+    }
+    this.current?.removeAttribute('aria-current');
+    this.current = this.entries[app.index];
+    this.current.setAttribute('aria-current', 'true');
+    const item = this.current.parentNode;
+    requestAnimationFrame(() => { this.list.scrollTop = item.offsetTop - this.list.offsetTop - 40; });
+    return this.list;
   }
 
   replay() {
