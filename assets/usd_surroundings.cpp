@@ -35,7 +35,7 @@ UsdPrim UsdWorldRoot(const std::string& name) {
   UsdPrim physics("PhysicsScene", kPhysics);
   physics.Set("vector3f physics:gravityDirection", UsdFloats(Eigen::Vector3d(0.0, 0.0, -1.0)))
       .Set("float physics:gravityMagnitude", UsdFloat(kGravity));
-  // As the MJCF of scenes: with one contact for each pair, MuJoCo tips boxes over.
+  // MuJoCo tips boxes over with one contact for each pair. The MJCF of scenes has the same.
   physics.Apply("MjcSceneAPI")
       .Set("uniform bool mjc:flag:multiccd", "1")
       .Set("uniform token mjc:option:cone", "\"elliptic\"")

@@ -165,7 +165,7 @@ void UsdTree::SetMotion(size_t index, UsdPrim* prim) const {
     prim->Apply("MjcJointAPI");
     prim->Set("float newton:friction", UsdFloat(joint.friction));
     prim->Set("uniform double mjc:frictionloss", UsdDouble(joint.friction));
-    // As in MJCF: MuJoCo's own friction is soft, and lets a lever sink by centimetres in seconds.
+    // MuJoCo's own friction is soft: a lever sinks by centimetres in seconds. MJCF has the same.
     prim->Set("uniform double[] mjc:solreffriction", "[0.004, 1]");
     prim->Set("uniform double[] mjc:solimpfriction", "[0.9999, 0.9999, 0.001, 0.5, 2]");
   }

@@ -33,7 +33,7 @@ const std::vector<Door> kDoors = {
     {std::regex("^bt[A-Z]|^Bullet"), {"sim"}},
     {std::regex("^mujoco/"),
      {"sim/mujoco", "sim/mujoco_scene", "sim/mujoco_rig", "sim/mujoco_bodies",
-      "sim/mujoco_stability", "sim/mujoco_grasp_rig"}},
+      "sim/mujoco_stability", "sim/mujoco_grasp_rig", "sim/mujoco_body_rig"}},
     {std::regex("^curl/"), {"llm"}},
     {std::regex("^opencv2/"), {"core/image", "asset_lift", "capture", "texture"}},
     {std::regex("^ceres/"), {"capture", "scene"}},
