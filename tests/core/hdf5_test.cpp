@@ -160,10 +160,27 @@ TEST(Hdf5, RefusesWithOneLineAndPrintsNothing) {
   writer.root().Create("once");
   EXPECT_NE(line([&] { writer.root().Create("once"); }), "");
   const double one = 1.0;
-  EXPECT_NE(line([&] { writer.root().Write("x", {}, &one); }), "");
+  EXPECT_NE(line([&] { writer.root().Write("x", {}, &one, {.rows_per_chunk = 1}); }), "");
+  EXPECT_NE(line([&] { writer.root().WriteText("x", std::string("a\0b", 3)); }), "");
   EXPECT_NE(line([&] { writer.root().Write("x", {1}, &one, {.gzip = 4}); }), "");
   EXPECT_NE(line([&] { writer.root().WriteTexts("x", {""}); }), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Hdf5, ScalarsAreReadBack) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "a.hdf5";
+  {
+    Hdf5Writer writer(path);
+    const double mass = 0.25;
+    writer.root().Write("mass", {}, &mass);
+    writer.root().WriteText("file", "solid.obj");
+    writer.Commit();
+  }
+  const Hdf5Reader reader(path);
+  EXPECT_TRUE(reader.root().Shape("mass").empty());
+  EXPECT_EQ(reader.root().Read<double>("mass").values, std::vector<double>{0.25});
+  EXPECT_EQ(reader.root().ReadTexts("file"), std::vector<std::string>{"solid.obj"});
 }
 
 }  // namespace
