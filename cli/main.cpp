@@ -35,7 +35,8 @@ int Main(int argc, char** argv) {
       "Example:\n  simwright lift examples/apple.jpg --category apple -o apple\n"
       "Each subcommand has its own --help with an example.");
   app.require_subcommand(1);
-  app.set_version_flag("--version", cli::VersionText(),
+  const std::string version = cli::VersionText();  // CLI11 adds the last line break
+  app.set_version_flag("--version", version.substr(0, version.size() - 1),
                        "Print the version and what the program was built with");
   app.set_config("--config", "",
                  "Read flags from a TOML file, one section per subcommand; "
