@@ -26,6 +26,7 @@ void WriteViewer(const workflows::PhotoRunRequest& request, core::Findings* find
   viewer::ViewRequest view;
   view.path = request.output;
   view.html = workflows::PhotoRunFolder{request.output, ""}.Viewer();
+  view.force = true;
   core::Progress silent;
   try {
     const viewer::ViewReport report = viewer::WriteView(view, &silent);

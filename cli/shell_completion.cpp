@@ -45,7 +45,7 @@ void Collect(const CLI::App& app, const std::string& path,
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_lnames().empty() && option->get_snames().empty()) continue;  // positional
     command.options.push_back({option->get_lnames(), option->get_snames(),
-                               option->get_type_size() != 0, FixedValues(option->get_type_name()),
+                               option->get_expected_max() > 0, FixedValues(option->get_type_name()),
                                option->get_description()});
   }
   const auto subcommands = app.get_subcommands(std::function<bool(const CLI::App*)>());

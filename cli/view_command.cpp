@@ -67,7 +67,13 @@ void AddView(CLI::App* app, CommonOptions* common, Run* run) {
       ->needs(html)
       ->capture_default_str();
   AddCommon(command, common);
-  command->callback([request, common, run] { *run = [=] { return View(*request, *common); }; });
+  AddForce(command, common);
+  command->callback([request, common, run] {
+    *run = [=] {
+      request->force = common->force;
+      return View(*request, *common);
+    };
+  });
 }
 
 }  // namespace simwright::cli

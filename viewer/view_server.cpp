@@ -5,7 +5,6 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
-#include <set>
 #include <string>
 #include <thread>
 
@@ -39,6 +38,17 @@ std::int64_t NumberOf(const std::string& digits) {
   const char* const end = digits.data() + digits.size();
   const auto [stop, fault] = std::from_chars(digits.data(), end, number);
   return fault == std::errc() && stop == end ? number : -1;
+}
+
+// Returns true if a request's header `Host` names this computer, at any port: a tunnel ends at
+// another port than the server's.
+bool IsThisComputer(const std::string& host) {
+  for (const char* const name : {"localhost", "127.0.0.1", "[::1]"}) {
+    if (host == name) return true;
+    const std::string with_port = std::string(name) + ":";
+    if (host.starts_with(with_port) && NumberOf(host.substr(with_port.size())) >= 0) return true;
+  }
+  return false;
 }
 
 void Refuse(int status, const std::string& what, httplib::Response* response) {
@@ -75,7 +85,6 @@ struct ViewServer::Server {
   LiveContent live;
   httplib::Server http;
   std::mutex replaying;  // one replay at a time
-  std::set<std::string> hosts;
   int socket = -1;
   std::atomic<bool> stopped{false};
 };
@@ -164,7 +173,7 @@ void ViewServer::Server::Protect() {
                             {"Cache-Control", "no-store"}});
   http.set_pre_routing_handler(
       [this](const httplib::Request& request, httplib::Response& response) {
-        if (!hosts.contains(request.get_header_value("Host"))) {
+        if (!IsThisComputer(request.get_header_value("Host"))) {
           Refuse(403, "requests must come from this computer", &response);
           return httplib::Server::HandlerResponse::Handled;
         }
@@ -203,10 +212,6 @@ ViewServer::ViewServer(ContentSource source, int port)
   }
   // The library lets five connections wait; a browser and a script may open many more at once.
   ::listen(server_->socket, kBacklog);
-  for (const std::string host : {"127.0.0.1", "localhost"}) {
-    server_->hosts.insert(host + ":" + std::to_string(port_));
-    if (port_ == 80) server_->hosts.insert(host);
-  }
 }
 
 ViewServer::~ViewServer() = default;

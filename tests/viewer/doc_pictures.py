@@ -20,7 +20,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, chromium.Chromium() as browser:
         def show(name, *arguments):
             page = pathlib.Path(folder) / "page.html"
-            subprocess.run([SIMWRIGHT, "view", str(FOLDER / name), "--html", str(page), "--quiet",
+            subprocess.run([SIMWRIGHT, "view", str(FOLDER / name), "--html", str(page), "--quiet", "--force",
                             *arguments], check=True, stdout=subprocess.DEVNULL)
             browser.size(1200, 720)
             browser.leave()

@@ -54,7 +54,7 @@ def serving(path):
 
 
 def write_page(path, file):
-    subprocess.run([SIMWRIGHT, "view", str(path), "--html", str(file), "--quiet"], check=True,
+    subprocess.run([SIMWRIGHT, "view", str(path), "--html", str(file), "--quiet", "--force"], check=True,
                    stdout=subprocess.DEVNULL)
     return pathlib.Path(file).as_uri()
 

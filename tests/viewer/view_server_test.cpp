@@ -107,6 +107,11 @@ TEST_F(Server, OtherMethodsAndHostsAreRefused) {
   EXPECT_EQ(Get("/manifest", {{"Host", "evil.example"}})->status, 403);
   EXPECT_EQ(Get("/manifest", {{"Host", "evil.example:" + std::to_string(server_->port())}})->status,
             403);
+  EXPECT_EQ(Get("/manifest", {{"Host", "localhost.evil.example:80"}})->status, 403);
+  // A tunnel of ssh ends at another port of this computer.
+  for (const char* host : {"localhost", "localhost:9000", "127.0.0.1:9000", "[::1]:9000"}) {
+    EXPECT_EQ(Get("/manifest", {{"Host", host}})->status, 200) << host;
+  }
 }
 
 TEST_F(Server, AnswersAThousandRequestsAtOnce) {

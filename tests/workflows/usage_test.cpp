@@ -141,6 +141,7 @@ TEST(Usage, BashCompletes) {
   EXPECT_EQ(Completed(script, "simwright lif"), "lift\n");
   EXPECT_EQ(Completed(script, "simwright scene gen"), "generate\n");
   EXPECT_EQ(Completed(script, "simwright import --hei"), "--height\n");
+  EXPECT_EQ(Completed(script, "simwright import --report --hei"), "--height\n");
   EXPECT_EQ(Completed(script, "simwright import --up \"\""), "x y z\n");
   EXPECT_EQ(Completed(script, "simwright import " + script.substr(0, script.size() - 2)),
             script + "\n");

@@ -13,6 +13,13 @@
 namespace simwright::viewer {
 
 ViewReport WriteView(const ViewRequest& request, core::Progress* progress) {
+  if (std::filesystem::exists(request.html) && !request.force) {
+    throw core::Error("the file exists", request.html.string(), "use --force to replace it");
+  }
+  const std::filesystem::path folder = request.html.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw core::Error("no such folder", folder.string(), "create it");
+  }
   progress->Stage("read");
   const std::unique_ptr<Content> content = ReadViewContent(request.path);
   ViewReport report;

@@ -16,6 +16,7 @@ struct ViewRequest {
   int port = 0;                // 0: a free one
   std::filesystem::path html;  // writes one file instead of serving; empty: serves
   int most = 60;               // entries (scenes, tasks, assets) in that file
+  bool force = false;          // replaces that file
 };
 
 // The page that was written.
@@ -27,8 +28,8 @@ struct ViewReport {
   core::Findings findings;
 };
 
-// Writes the page of request.html. Throws core::Error for a path that cannot be shown, and for
-// content that is damaged or too large.
+// Writes the page of request.html. Throws core::Error for a file that exists or has no folder, for
+// a path that cannot be shown, and for content that is damaged or too large.
 ViewReport WriteView(const ViewRequest& request, core::Progress* progress);
 
 // Serves the page until Ctrl-C; calls `started` with its address. The content is read again when

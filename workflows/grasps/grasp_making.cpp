@@ -34,8 +34,10 @@ GraspOutput OutputOf(const GraspRequest& request, const fs::path& asset,
                                        : request.output;
   output.picture = output.file;
   output.picture.replace_extension(".png");
-  if (fs::exists(output.file) && !request.force) {
-    throw core::Error("the file exists", output.file.string(), "use --force to replace it");
+  for (const fs::path& file : {output.file, output.picture}) {
+    if (fs::exists(file) && !request.force) {
+      throw core::Error("the file exists", file.string(), "use --force to replace it");
+    }
   }
   if (!output.file.parent_path().empty() && !fs::is_directory(output.file.parent_path())) {
     throw core::Error("no such folder", output.file.parent_path().string(), "create it");
