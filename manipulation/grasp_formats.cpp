@@ -104,10 +104,12 @@ void WriteAcronym(const GraspSet& set, const assets::Asset& asset, const fs::pat
 
 GraspFormat GraspFormatOf(const std::string& name, const fs::path& file) {
   for (const GraspFormatRow& row : GraspFormatRows()) {
-    if (!name.empty() && name == row.name) return row.format;
     const auto matches = [&](const char* extension) { return file.extension() == extension; };
-    if (name.empty() && std::any_of(row.extensions.begin(), row.extensions.end(), matches)) {
-      return row.format;
+    const bool ends = std::any_of(row.extensions.begin(), row.extensions.end(), matches);
+    if (name.empty() ? ends : name == row.name) {
+      if (ends || file.empty()) return row.format;
+      throw core::Error("does not end as files of the format " + name + " do", file.string(),
+                        std::string("let it end in ") + row.extensions.front());
     }
   }
   throw core::Error("is no format of grasps", name.empty() ? file.string() : name,

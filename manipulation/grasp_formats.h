@@ -12,7 +12,8 @@ namespace simwright::manipulation {
 enum class GraspFormat { kJson, kIsaac, kAcronym, kMjcf, kUsd };
 
 // Returns the format of a name (json, isaac, acronym, mjcf, usd), else that of the file's extension
-// (.json, .yaml or .yml, .h5 or .hdf5, .xml, .usda). Throws core::Error for others.
+// (.json, .yaml or .yml, .h5 or .hdf5, .xml, .usda). Throws core::Error for others, and for a file
+// that does not end as those of the named format.
 GraspFormat GraspFormatOf(const std::string& name, const std::filesystem::path& file);
 // Returns the extension, with its dot.
 std::string GraspExtension(GraspFormat format);

@@ -43,6 +43,11 @@ TEST(GraspsCommand, WritesProvedGraspsAndPicksWithThem) {
   ExpectGraspError(soap + " --count 8", "use --force to replace it");
   ExpectGraspError(soap + " -o " + (folder.path() / "a.txt").string(), "is no format of grasps");
   ExpectGraspError(soap + " --gripper hand.urdf", "no such gripper");
+  ExpectGraspError(soap + " --format isaac -o " + (folder.path() / "a.json").string(),
+                   "let it end in .yaml");
+  core::WriteFile(folder.path() / "own.png", "a picture of mine");
+  ExpectGraspError(soap + " -o " + (folder.path() / "own.json").string(), "own.png");
+  EXPECT_EQ(core::ReadFile(folder.path() / "own.png"), "a picture of mine");
   const Outcome picks = RunProgram("grasps " + soap + " --pick-test 2 --json", "/dev/null");
   ASSERT_EQ(picks.code, 0) << picks.text;
   EXPECT_EQ(core::ParseJson(picks.text, "the picks")["picks"][0]["with_proved"], 2) << picks.text;
@@ -53,6 +58,11 @@ TEST(GraspsCommand, SaysWhatItCannotGrasp) {
   ExpectGraspError(AssetOf("board_game_large", folder.path()), "no grasp: ");
   ExpectGraspError(AssetOf("light_switch", folder.path()), "is an articulated asset");
   ExpectGraspError((folder.path() / "nothing").string(), "holds no asset.json");
+  // A solid that lacks its last face.
+  const std::string book = AssetOf("book", folder.path() / "open");
+  const std::string solid = core::ReadFile(fs::path(book) / "solid.obj");
+  core::WriteFile(fs::path(book) / "solid.obj", solid.substr(0, solid.rfind("\nf ") + 1));
+  ExpectGraspError(book, "is not closed: 3 open edges");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/json.h"
+#include "geometry/mesh_validity.h"
 #include "manipulation/grasp_formats.h"
 #include "manipulation/grasp_proof.h"
 #include "manipulation/parallel_gripper.h"
@@ -62,6 +63,11 @@ GraspReport GraspsOf(const fs::path& folder, const manipulation::ParallelGripper
   GraspReport report;
   const assets::Asset asset = assets::ReadAsset(folder);
   report.asset = asset.name;
+  const geometry::MeshValidity solid = geometry::Examine(asset.solid);
+  if (!solid.closed) {
+    throw core::Error("is not closed: " + std::to_string(solid.open_edges) + " open edges",
+                      (folder / kSolidFile).string(), "make the asset again");
+  }
   const core::SteadyTime start = core::Now();
   const manipulation::GraspObject object = GraspObjectOf(asset);
   manipulation::GraspProofOptions options;
