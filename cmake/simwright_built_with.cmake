@@ -19,7 +19,7 @@ function(simwright_built_with target)
     "Ceres=${Ceres_VERSION}"
     "CGAL=${CGAL_VERSION}"
     "CLI11=${CLI11_VERSION}"
-    "cpp-httplib=${httplib_VERSION}"
+    "cpp-httplib=${cpp_httplib_VERSION}"
     "curl=${CURL_VERSION_STRING}"
     "Draco=${draco_VERSION}"
     "Eigen=${Eigen3_VERSION}"

@@ -15,6 +15,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/prerm)
 set(CPACK_DEBIAN_COMPRESSION_TYPE zstd)  # a fifth of the time of xz
 # Shared libraries are found by dpkg-shlibdeps. OpenBLAS is named because any BLAS would satisfy it,
 # WordNet because the program reads its files.

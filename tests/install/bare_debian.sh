@@ -66,6 +66,7 @@ simwright.skills.load('open_drawer')
 inside "test -s /usr/share/man/man1/simwright.1.gz && test -s /usr/share/man/man1/simwright-scene-generate.1.gz"
 inside "source /usr/share/bash-completion/completions/simwright; COMP_WORDS=(simwright lif); COMP_CWORD=1; \
   _simwright; test \"\${COMPREPLY[0]}\" = lift"
-inside "apt-get -qq purge -y simwright >/dev/null 2>&1; ! command -v simwright; ! test -e /usr/share/simwright; \
-  ! test -e /usr/lib/python3/dist-packages/simwright"
+inside "apt-get -qq purge -y simwright >/dev/null 2>&1"
+left=$(inside "ls -d /usr/bin/simwright /usr/share/simwright /usr/lib/python3/dist-packages/simwright 2>/dev/null || true")
+[ -z "$left" ] || { echo "error: purged, but left: $left"; exit 1; }
 echo "bare Debian: all passed"
