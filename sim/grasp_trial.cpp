@@ -24,7 +24,7 @@ constexpr double kPressTime = 0.1;          // s in which the force builds up an
 constexpr double kStartPenetration = 1e-3;  // m of the open gripper in the object
 constexpr double kReleaseTime = 0.6;        // s
 constexpr double kReleaseFall = 0.05;       // m relative to the palm
-constexpr double kTrialInFloor = 1e-3;           // m
+constexpr double kTrialInFloor = 1e-3;      // m
 
 std::string Formatted(const char* format, double value) {
   char text[200];
