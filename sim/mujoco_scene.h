@@ -17,8 +17,8 @@ class MujocoScene {
   enum class Ground { kAdded, kOwn };
 
   // `balls` are radii (m) of free spheres of 1000 kg/m^3. `elements` are further elements of the
-  // MJCF file, such as <asset> and <worldbody>. Both need Ground::kAdded. Throws core::Error with MuJoCo's own message if the
-  // file does not compile.
+  // MJCF file, such as <asset> and <worldbody>. Both need Ground::kAdded. Throws core::Error with
+  // MuJoCo's own message if the file does not compile.
   explicit MujocoScene(const std::filesystem::path& mjcf, const std::vector<double>& balls = {},
                        Ground ground = Ground::kAdded, const std::string& elements = "");
   ~MujocoScene();
