@@ -25,9 +25,9 @@ class BulletGraspRig : public GraspRig {
     Placement hand{.world_from_root = start.world_from_tool, .fixed = false};
     hand.through_floor = {kPalmLink, kFirstFingerLink, kFirstFingerLink + 1};
     gripper_ = world_.Add(std::move(gripper), hand);
-    Placement thing{.world_from_root = start.world_from_object, .fixed = false};
-    if (!start.floor) thing.through_floor = {0};
-    object_ = world_.Add(std::move(object), thing);
+    Placement placement{.world_from_root = start.world_from_object, .fixed = false};
+    if (!start.floor) placement.through_floor = {0};
+    object_ = world_.Add(std::move(object), placement);
     for (const int joint : {0, 1}) world_.SetPosition(gripper_, joint, start.closing);
   }
 

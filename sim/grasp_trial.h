@@ -51,7 +51,7 @@ struct GraspTrialInput {
   std::optional<Eigen::Isometry3d> world_from_object = std::nullopt;
 };
 
-// How far the object moved in the gripper's frame during a phase.
+// The motion of the object in the gripper's frame during a phase.
 struct GraspSlip {
   double distance = 0.0;  // m, of the point that was at the tool's origin
   double angle = 0.0;     // rad

@@ -3,6 +3,7 @@
 #include <mujoco/mujoco.h>
 
 #include "core/progress.h"
+#include "sim/mujoco_pose.h"
 #include "sim/mujoco_scene.h"
 
 namespace simwright::sim {
@@ -33,14 +34,7 @@ const std::vector<std::string>& MujocoWorld::warnings() const {
 }
 
 void MujocoWorld::SetPose(int body, const Eigen::Isometry3d& pose) {
-  double* q = model_->data->qpos + model_->Position(body);
-  const Eigen::Quaterniond rotation(pose.linear());
-  Eigen::Map<Eigen::Vector3d> position(q);
-  position = pose.translation();
-  q[3] = rotation.w();
-  q[4] = rotation.x();
-  q[5] = rotation.y();
-  q[6] = rotation.z();
+  WriteMujocoPose(pose, model_->data->qpos + model_->Position(body));
   mj_forward(model_->model, model_->data);
 }
 
@@ -53,11 +47,7 @@ double MujocoWorld::time() const {
 }
 
 Eigen::Isometry3d MujocoWorld::Pose(int body) const {
-  const double* q = model_->data->qpos + model_->Position(body);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = Eigen::Map<const Eigen::Vector3d>(q);
-  pose.linear() = Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized().toRotationMatrix();
-  return pose;
+  return ReadMujocoPose(model_->data->qpos + model_->Position(body));
 }
 
 assets::Inertial MujocoWorld::LoadedInertial(int body) const {

@@ -6,6 +6,7 @@
 
 #include "assets/primitive_meshes.h"
 #include "sim/body_rig.h"
+#include "sim/mujoco_pose.h"
 #include "sim/mujoco_scene.h"
 
 namespace simwright::sim {
@@ -44,14 +45,7 @@ class BodyRigInMujoco : public BodyRig {
       : scene_(mjcf, {}, MujocoScene::Ground::kAdded, BoxElements(boxes, body.friction)),
         model_(*scene_.model()),
         data_(*scene_.data()) {
-    double* const q = data_.qpos + Address(0);
-    const Eigen::Quaterniond turn(pose.linear());
-    Eigen::Map<Eigen::Vector3d> position(q);
-    position = pose.translation();
-    q[3] = turn.w();
-    q[4] = turn.x();
-    q[5] = turn.y();
-    q[6] = turn.z();
+    WriteMujocoPose(pose, data_.qpos + Address(0));
     mj_forward(&model_, &data_);
   }
   void SetGravity(const Eigen::Vector3d& gravity) override {
@@ -61,10 +55,7 @@ class BodyRigInMujoco : public BodyRig {
   double time() const override { return data_.time; }
   double time_step() const override { return model_.opt.timestep; }
   Eigen::Isometry3d Pose(int index) const override {
-    const double* const q = data_.qpos + Address(index);
-    Eigen::Isometry3d pose(Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized());
-    pose.translation() = Eigen::Map<const Eigen::Vector3d>(q);
-    return pose;
+    return ReadMujocoPose(data_.qpos + Address(index));
   }
   double DeepestPenetration() const override {
     double deepest = 0.0;

@@ -10,6 +10,7 @@
 #include "core/files.h"
 #include "sim/bodies_mjcf.h"
 #include "sim/grasp_rig.h"
+#include "sim/mujoco_pose.h"
 #include "sim/mujoco_scene.h"
 
 namespace simwright::sim {
@@ -139,22 +140,6 @@ class GraspModel {
   mutable std::vector<mjData*> spare_;
 };
 
-void WritePose(const Eigen::Isometry3d& pose, double* q) {
-  const Eigen::Quaterniond turn(pose.linear());
-  Eigen::Map<Eigen::Vector3d> position(q);
-  position = pose.translation();
-  q[3] = turn.w();
-  q[4] = turn.x();
-  q[5] = turn.y();
-  q[6] = turn.z();
-}
-
-Eigen::Isometry3d ReadPose(const double* q) {
-  Eigen::Isometry3d pose(Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized());
-  pose.translation() = Eigen::Map<const Eigen::Vector3d>(q);
-  return pose;
-}
-
 class MujocoGraspRig : public GraspRig {
  public:
   MujocoGraspRig(const GraspModel& compiled, const GraspRigStart& start)
@@ -163,8 +148,8 @@ class MujocoGraspRig : public GraspRig {
         data_(compiled.Take()),
         tool_(start.world_from_tool),
         target_(start.world_from_tool) {
-    WritePose(tool_, data_->qpos + compiled_.Position(compiled_.palm()));
-    WritePose(start.world_from_object, data_->qpos + compiled_.Position(compiled_.object()));
+    WriteMujocoPose(tool_, data_->qpos + compiled_.Position(compiled_.palm()));
+    WriteMujocoPose(start.world_from_object, data_->qpos + compiled_.Position(compiled_.object()));
     for (size_t i = 0; i < 2; ++i) {
       data_->qpos[model_->jnt_qposadr[compiled_.joint(i)]] = start.closing;
     }
@@ -185,7 +170,7 @@ class MujocoGraspRig : public GraspRig {
   void Step() override {
     const double step = model_->opt.timestep;
     // The palm is placed exactly on its path; its velocity is what contacts feel.
-    WritePose(tool_, data_->qpos + compiled_.Position(compiled_.palm()));
+    WriteMujocoPose(tool_, data_->qpos + compiled_.Position(compiled_.palm()));
     const Eigen::Matrix3d relative = tool_.linear().transpose() * target_.linear();
     const Eigen::AngleAxisd turn(relative);
     double* velocity = data_->qvel + compiled_.Dof(compiled_.palm());
@@ -202,7 +187,7 @@ class MujocoGraspRig : public GraspRig {
   double time_step() const override { return model_->opt.timestep; }
   Eigen::Isometry3d ToolPose() const override { return tool_; }
   Eigen::Isometry3d ObjectPose() const override {
-    return ReadPose(data_->qpos + compiled_.Position(compiled_.object()));
+    return ReadMujocoPose(data_->qpos + compiled_.Position(compiled_.object()));
   }
   std::array<double, 2> FingerPositions() const override {
     return {data_->qpos[model_->jnt_qposadr[compiled_.joint(0)]],

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "sim/joint_rig.h"
+#include "sim/mujoco_pose.h"
 #include "sim/mujoco_scene.h"
 
 namespace simwright::sim {
@@ -51,13 +52,7 @@ class RigInMujoco : public JointRig {
   void SetRootPose(const Eigen::Isometry3d& pose) override {
     if (!free_) throw core::Error("a fixed body cannot be moved", body_.name());
     double* q = data_->qpos + model_->jnt_qposadr[model_->body_jntadr[bodies_[0]]];
-    const Eigen::Quaterniond turn(pose.linear());
-    Eigen::Map<Eigen::Vector3d> position(q);
-    position = pose.translation();
-    q[3] = turn.w();
-    q[4] = turn.x();
-    q[5] = turn.y();
-    q[6] = turn.z();
+    WriteMujocoPose(pose, q);
     ZeroVelocities();
   }
   void Drive(int joint, double velocity, double max_force) override {

@@ -37,7 +37,7 @@ class Content {
   Document document_;
 };
 
-// Where the content comes from.
+// The source of the content.
 struct ContentSource {
   // Reads the content. Throws core::Error.
   std::function<std::unique_ptr<Content>()> read;

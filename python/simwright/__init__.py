@@ -14,8 +14,8 @@ from pathlib import Path as _Path
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 _FOLDER = _Path(__file__).absolute().parent
-# Where the weights are: beside the module as pip installs it, or in /usr/share as Debian's package
-# does. The variable wins, as for the command.
+# The weights lie beside the module as pip installs it, or in /usr/share as Debian's package does. The
+# variable wins, as for the command.
 for _models in (_FOLDER / "models", _FOLDER.parents[3] / "share" / "simwright" / "models"):
     if "SIMWRIGHT_MODELS" not in _os.environ and _models.is_dir():
         _os.environ["SIMWRIGHT_MODELS"] = str(_models)

@@ -26,12 +26,12 @@ constexpr int kGraspCandidates = 400;
 constexpr int kSurfaceSamples = 4000;
 constexpr std::uint64_t kGraspSeed = 1;
 
-// Returns ", most often: REASON" of the failures by reason; empty without any.
+// Returns "; most often: REASON" of the failures by reason; empty without any.
 std::string MostFrequent(const std::map<std::string, int>& failures) {
   const auto most =
       std::max_element(failures.begin(), failures.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
-  return most == failures.end() ? "" : ", most often: " + most->first;
+  return most == failures.end() ? "" : "; most often: " + most->first;
 }
 
 // Adds grasp-bullet and grasp-mujoco: grasps that hold in Bullet are tried in both engines, and the
@@ -60,7 +60,9 @@ void AddGraspRows(const assets::Asset& asset, validation::CheckResults* results)
     trial.release = true;
     const sim::GraspTrials trials(engine, gripper.model, object.body, trial);
     int held = 0;
-    std::string reason = "of " + std::to_string(proved.tried) + " candidates none was held" +
+    std::string reason = "of " + std::to_string(proved.tried) + " candidates " +
+                         std::to_string(proved.held_in_bullet) + " held in Bullet and " +
+                         std::to_string(proved.held_in_both) + " of these in MuJoCo" +
                          MostFrequent(proved.failures);
     for (const manipulation::Grasp& grasp : proved.grasps) {
       const sim::GraspTrialResult result =

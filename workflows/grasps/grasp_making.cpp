@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* kSolidFile = "solid.obj";
 
-// Where the grasps of an asset go.
+// The files of the grasps of an asset.
 struct GraspOutput {
   fs::path file, picture;
 };
