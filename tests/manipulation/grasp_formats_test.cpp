@@ -142,7 +142,8 @@ TEST(GraspFormats, UsdHasACurveForEachGrasp) {
 TEST(GraspFormats, FollowTheNameOrTheExtension) {
   EXPECT_EQ(GraspFormatOf("", "a.json"), GraspFormat::kJson);
   EXPECT_EQ(GraspFormatOf("", "a.yml"), GraspFormat::kIsaac);
-  EXPECT_EQ(GraspFormatOf("usd", "a.json"), GraspFormat::kUsd);
+  EXPECT_EQ(GraspFormatOf("usd", "a.usda"), GraspFormat::kUsd);
+  EXPECT_THROW(GraspFormatOf("usd", "a.json"), core::Error);
   EXPECT_EQ(GraspExtension(GraspFormat::kAcronym), ".h5");
   EXPECT_THROW(GraspFormatOf("", "a.txt"), core::Error);
 }
