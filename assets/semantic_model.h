@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct SemanticModel {
   std::filesystem::path urdf;
   UrdfModel model;
   std::map<std::string, LinkSemantics> semantics;  // by link; links without any are omitted
+  // True if a proved grasp takes the object off the plane on which it stands, false if none of its
+  // proved grasps does. None: no grasps are known (ReadSemanticModel leaves it so).
+  std::optional<bool> graspable = std::nullopt;
 };
 
 // Returns the URDF of an asset's folder (ours, PartNet-Mobility's, GAPartNet's): the one with the

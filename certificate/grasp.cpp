@@ -7,6 +7,7 @@
 
 #include "certificate/body_lines.h"
 #include "certificate/robot_clearance.h"
+#include "manipulation/grasp_ranking.h"
 
 namespace simwright::certificate {
 namespace {
@@ -179,11 +180,8 @@ std::vector<Grasp> ProvedGraspsOf(const BodyModel& body, const robot::RobotModel
     Grasp grasp;
     grasp.body_from_tool = proved.object_from_tool;
     grasp.width = proved.width;
-    grasp.leader = gripper.closed + (gripper.open - gripper.closed) *
-                                        std::min(1.0, proved.opening / gripper.MaxOpening());
-    const Vector3d axis = (proved.contacts[1] - proved.contacts[0]).normalized();
-    const Vector3d from_center = proved.Center() - body.center_of_mass;
-    grasp.center_offset = (from_center - from_center.dot(axis) * axis).norm();
+    grasp.leader = gripper.LeaderAt(proved.opening);
+    grasp.center_offset = manipulation::CenterOffset(proved, body.center_of_mass);
     grasp.quality = proved.quality;
     grasps.push_back(grasp);
   }

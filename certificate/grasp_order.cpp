@@ -6,43 +6,23 @@
 #include <map>
 #include <numbers>
 
+#include "manipulation/grasp_ranking.h"
+
 namespace simwright::certificate {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kSteepestUpward = 0.15;  // of an approach direction, upwards
-constexpr double kAwayFromRobot = -0.2;   // least component of an approach away from the robot
-constexpr double kShoulder = 0.333;       // m above the base, about which an arm reaches
-constexpr double kFromAbove = 0.35;       // rad by which straight reaching is preferred
-constexpr double kLevelAxis = 0.5;        // rad of cost for a vertical closing axis
-constexpr double kOffsetCost = 15.0;      // rad of cost per m between grasp and centre of mass
-constexpr double kQualityCost =
-    1.0;  // rad of cost for a proved grasp that no perturbation survives
 constexpr double kBin = std::numbers::pi / 8.0;  // rad of the directions that alternate
 constexpr std::array kApproachShares = {0.0, 0.15, 0.35, 0.6, 1.0};  // of the standoff
-
-double AngleBetween(const Vector3d& a, const Vector3d& b) {
-  return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
-}
-
-// Returns the cost of a grasp: the lower, the more promising.
-double CostOf(const Grasp& grasp, const Isometry3d& world_from_tool, const Vector3d& reach) {
-  const Vector3d approach = world_from_tool.linear().col(2);
-  const double straight = AngleBetween(approach, reach);
-  const double above = kFromAbove + AngleBetween(approach, -Vector3d::UnitZ());
-  return std::min(straight, above) + kLevelAxis * std::abs(world_from_tool.linear().col(1).z()) +
-         kOffsetCost * grasp.center_offset +
-         (grasp.quality > 0.0 ? kQualityCost * (1.0 - grasp.quality) : 0.0);
-}
 
 }  // namespace
 
 std::vector<size_t> OrderGrasps(const std::vector<Grasp>& grasps, const PlacedBody& target,
                                 const Isometry3d& world_from_robot, double standoff,
                                 RobotClearance* clearance, SearchCounts* counts) {
-  const Vector3d shoulder = world_from_robot * Vector3d(0.0, 0.0, kShoulder);
+  const Vector3d shoulder = world_from_robot * manipulation::ShoulderPoint();
   const Vector3d reach =
       (target.world_from_body * target.model->center_of_mass - shoulder).normalized();
   Vector3d ahead = reach;
@@ -57,7 +37,7 @@ std::vector<size_t> OrderGrasps(const std::vector<Grasp>& grasps, const PlacedBo
   for (size_t i = 0; i < grasps.size(); ++i) {
     Isometry3d tool = target.world_from_body * grasps[i].body_from_tool;
     const Vector3d approach = tool.linear().col(2);
-    if (approach.z() > kSteepestUpward || approach.dot(ahead) < kAwayFromRobot) continue;
+    if (!manipulation::IsApproachable(approach, ahead)) continue;
     ++counts->grasps;
     clearance->SetLeader(grasps[i].leader);
     const Vector3d origin = tool.translation();
@@ -75,7 +55,7 @@ std::vector<size_t> OrderGrasps(const std::vector<Grasp>& grasps, const PlacedBo
     const double yaw =
         std::atan2(approach.dot(Vector3d::UnitZ().cross(ahead)), approach.dot(ahead));
     free.push_back(
-        {CostOf(grasps[i], tool, reach),
+        {manipulation::GraspCost(tool, reach, grasps[i].center_offset, grasps[i].quality),
          i,
          {static_cast<int>(std::lround(pitch / kBin)), static_cast<int>(std::lround(yaw / kBin))}});
   }

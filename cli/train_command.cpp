@@ -25,9 +25,10 @@ int TrainSkill(const workflows::TrainRequest& given, const CommonOptions& common
   }
   progress.Finish();
   if (common.json) {
-    PrintJson(workflows::TrainJson(report), {});
+    PrintJson(workflows::TrainJson(report), report.findings);
     return 0;
   }
+  PrintFindings(report.findings, common);
   if (!common.quiet) std::fputs(workflows::TrainTable(report).c_str(), stdout);
   std::printf("%.0f %% success: %s\n", 100.0 * report.success(), report.folder.c_str());
   return 0;
@@ -66,6 +67,14 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
           "(delta) or of the joints (joints)")
       ->check(CLI::IsMember({"focus", "guided", "absolute", "delta", "joints"}))
       ->default_str("focus");
+  command
+      ->add_option_function<std::string>(
+          "--grasps",
+          [request](const std::string& name) { request->proved_grasps = name == "proved"; },
+          "How rigid objects are grasped: by the proved grasps of their grasps.json, where there\n"
+          "is one (proved; see `simwright grasps`), or from above (above)")
+      ->check(CLI::IsMember({"proved", "above"}))
+      ->default_str("proved");
   command->add_option("--seconds", request->episode_seconds, "Maximum duration of an episode, s")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();

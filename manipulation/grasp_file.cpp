@@ -14,7 +14,8 @@ using Eigen::Vector3d;
 
 constexpr const char* kGraspFormat = "simwright_grasps";
 constexpr std::uint64_t kMostBytes = 256ull << 20;
-constexpr double kRigid = 1e-6;  // of a rotation matrix
+constexpr double kRigid = 1e-6;     // of a rotation matrix
+constexpr double kSamePose = 1e-4;  // of equal poses of a gripper's base link, m and rad
 
 core::OrderedJson VectorJson(const Vector3d& vector) {
   return core::OrderedJson::array({vector.x(), vector.y(), vector.z()});
@@ -97,6 +98,12 @@ Isometry3d GraspGenPose(const GraspSet& set, const Grasp& grasp) {
 
 Isometry3d BaseLinkPose(const GraspSet& set, const Grasp& grasp) {
   return grasp.object_from_tool * set.tool_from_base;
+}
+
+bool IsForGripper(const GraspSet& set, const ParallelGripper& gripper) {
+  return set.base_link == gripper.base_link &&
+         (set.tool_from_base.matrix() - gripper.tool_from_base.matrix()).norm() < kSamePose &&
+         set.max_opening <= gripper.model.max_opening + kSamePose;
 }
 
 core::OrderedJson GraspSetJson(const GraspSet& set) {

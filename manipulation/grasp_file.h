@@ -42,6 +42,10 @@ Eigen::Isometry3d GraspGenPose(const GraspSet& set, const Grasp& grasp);
 // Returns the pose of the base link, object_from_base.
 Eigen::Isometry3d BaseLinkPose(const GraspSet& set, const Grasp& grasp);
 
+// Returns true if the grasps are for this gripper: the same base link in the same pose, and no
+// smaller opening.
+bool IsForGripper(const GraspSet& set, const ParallelGripper& gripper);
+
 core::OrderedJson GraspSetJson(const GraspSet& set);
 // Reads grasps.json. Throws core::Error, naming the field, for another format.
 GraspSet ReadGraspSet(const std::filesystem::path& file);

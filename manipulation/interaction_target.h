@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "manipulation/grasp.h"
 #include "manipulation/side_receptacle.h"
 #include "reward/reward_slot.h"
 #include "tasks/task.h"
@@ -29,6 +30,9 @@ struct InteractionTarget {
   // The distance (m) along tool y from the origin of `link_from_grasp` to the grasp point on the
   // wall of a vessel that is too wide for the gripper. 0: the object is grasped in its middle.
   double rim = 0.0;
+  // The proved grasps of a free object (docs/grasps.md), in the object's frame. Empty: none are
+  // known, or the object is not grasped.
+  std::vector<Grasp> grasps;
 };
 
 // The place to which the reward program asks to move the target.

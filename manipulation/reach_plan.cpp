@@ -7,6 +7,7 @@
 
 #include "manipulation/collision_checker.h"
 #include "manipulation/goal_displacement.h"
+#include "manipulation/grasp_ranking.h"
 #include "manipulation/ik_solutions.h"
 #include "manipulation/joint_target.h"
 #include "manipulation/tool_path.h"
@@ -57,6 +58,7 @@ std::vector<double> PositionsAlongJoint(const tasks::ObjectJoint& joint, double 
 struct GraspOrientation {
   Vector3d across;  // unit, world: the tool's y axis
   double pitch = 0.0;
+  int grasp = -1;  // ReachPlan::grasp
 };
 
 // The requirements of a plan.
@@ -106,6 +108,7 @@ bool CanCarry(const PlanningArm& context, const Interaction& interaction,
 struct Candidate {
   Isometry3d tool;  // world_from_tool
   double pitch = 0.0;
+  int grasp = -1;
   robot::JointVector configuration;
   double seconds = 0.0;  // to reach it, every joint at its highest speed
 };
@@ -139,9 +142,11 @@ void AddCandidates(const PlanningArm& context, const Interaction& interaction,
                    const tasks::WorldState& state, const GraspOrientation& orientation,
                    const robot::JointVector& from, core::Rng& rng,
                    std::vector<Candidate>* candidates) {
-  const Isometry3d tool = GraspPose(interaction, state, orientation.across, orientation.pitch);
+  const Isometry3d tool =
+      GraspPose(interaction, state, orientation.across, orientation.pitch, orientation.grasp);
   for (const IkSolution& found : SolveIkFromManyStarts(context, interaction, tool, from, rng)) {
-    candidates->push_back({tool, orientation.pitch, found.configuration, found.seconds});
+    candidates->push_back(
+        {tool, orientation.pitch, orientation.grasp, found.configuration, found.seconds});
   }
 }
 
@@ -255,6 +260,33 @@ std::vector<Vector3d> ClosingAxes(const Interaction& interaction, const tasks::W
   return lines;
 }
 
+// Returns the orientations that meet the requirements, as sets of alternatives, the most preferred
+// set first: those of each proved grasp in `grasps`, then those from above along `lines`.
+std::vector<std::vector<GraspOrientation>> OrientationsToTry(const Interaction& interaction,
+                                                             const tasks::WorldState& state,
+                                                             const std::vector<Vector3d>& lines,
+                                                             const std::vector<int>& grasps,
+                                                             const Requirements& requirements) {
+  std::vector<std::vector<GraspOrientation>> sets;
+  for (const int grasp : grasps) {
+    const Isometry3d tool = GraspPose(interaction, state, lines.front(), 0.0, grasp);
+    const Vector3d across = tool.linear().col(1);
+    if (requirements.leans_in &&
+        tool.linear().col(2).dot(InwardDirection(*interaction.room, interaction.model, state)) <
+            kLeanShare * std::sin(kRoomPitches[2])) {
+      continue;
+    }
+    sets.push_back({{across, 0.0, grasp}, {-across, 0.0, grasp}});
+  }
+  const size_t axes = requirements.clear && !requirements.leans_in ? lines.size() : 1;
+  for (const double pitch : PitchesOf(interaction, requirements)) {
+    for (size_t i = 0; i < axes; ++i) {
+      sets.push_back(OrientationsWith(interaction, state, lines[i], pitch, requirements));
+    }
+  }
+  return sets;
+}
+
 // Returns a plan with one of `orientations`.
 std::optional<ReachPlan> PlanWithOrientations(const PlanningArm& context,
                                               const Interaction& interaction,
@@ -280,12 +312,17 @@ std::optional<ReachPlan> PlanWithOrientations(const PlanningArm& context,
             : CanCarry(context, interaction, state, candidate.tool, requirements, &follower);
     if (!feasible) continue;
     const bool goes_on = requirements.looks_ahead && interaction.next;
-    if (!requirements.clear) {
-      return ReachPlan{candidate.pitch, candidate.configuration, false, {}, goes_on};
-    }
+    ReachPlan plan{.pitch = candidate.pitch,
+                   .grasp = candidate.grasp,
+                   .grasp_configuration = candidate.configuration,
+                   .waypoints = {},
+                   .reaches_next = goes_on};
+    if (!requirements.clear) return plan;
     const auto path = PlanApproachPath(context, interaction, state, from, candidate, requirements);
-    if (path)
-      return ReachPlan{candidate.pitch, candidate.configuration, path->empty(), *path, goes_on};
+    if (!path) continue;
+    plan.clear = path->empty();
+    plan.waypoints = *path;
+    return plan;
   }
   return std::nullopt;
 }
@@ -298,9 +335,15 @@ bool Pushes(const Interaction& interaction) {
 }
 
 Isometry3d GraspPose(const Interaction& interaction, const tasks::WorldState& state,
-                     const Vector3d& across, double pitch) {
+                     const Vector3d& across, double pitch, int grasp) {
   const InteractionTarget& target = *interaction.target;
   Isometry3d tool = Isometry3d::Identity();
+  if (grasp >= 0) {
+    tool = state.roots[static_cast<size_t>(target.object)] *
+           target.grasps[static_cast<size_t>(grasp)].object_from_tool;
+    if (across.dot(tool.linear().col(1)) < 0.0) tool.linear().leftCols<2>() *= -1.0;
+    return tool;
+  }
   if (Pushes(interaction)) {
     tool = PushingPose(interaction, state, across);
   } else if (target.joint >= 0) {
@@ -327,17 +370,14 @@ std::optional<ReachPlan> PlanReach(const PlanningArm& context, const Interaction
   const Isometry3d& world_from_base = interaction.subtask.start.world_from_robot;
   const Isometry3d tool_now = world_from_base * robot::ForwardKinematics(context.robot->arm, from);
   const std::vector<Vector3d> lines = ClosingAxes(interaction, state, tool_now.linear().col(1));
+  const std::vector<int> grasps = RankGrasps(interaction, state);
   const auto plan = [&](Requirements requirements) -> std::optional<ReachPlan> {
     requirements.margin = path_options.margin;
-    for (const double pitch : PitchesOf(interaction, requirements)) {
-      for (size_t i = 0; i < (requirements.clear && !requirements.leans_in ? lines.size() : 1);
-           ++i) {
-        const auto orientations =
-            OrientationsWith(interaction, state, lines[i], pitch, requirements);
-        if (const auto found = PlanWithOrientations(context, interaction, state, from, orientations,
-                                                    requirements, rng)) {
-          return found;
-        }
+    for (const auto& orientations :
+         OrientationsToTry(interaction, state, lines, grasps, requirements)) {
+      if (const auto found = PlanWithOrientations(context, interaction, state, from, orientations,
+                                                  requirements, rng)) {
+        return found;
       }
     }
     return std::nullopt;

@@ -14,13 +14,15 @@ bool Pushes(const Interaction& interaction);
 // seen from its destination. `across` (unit, world): the current closing axis, tool y, the line
 // from finger to finger; the gripper is symmetric under a half turn about its own axis and stays
 // near the given one. `pitch` (rad): the rotation of the gripper about that axis, about which a bar
-// may be grasped at any angle.
+// may be grasped at any angle. `grasp`: an index into InteractionTarget::grasps, whose pose is
+// returned without regard to `pitch`; -1: none.
 Eigen::Isometry3d GraspPose(const Interaction& interaction, const tasks::WorldState& state,
-                            const Eigen::Vector3d& across, double pitch);
+                            const Eigen::Vector3d& across, double pitch, int grasp = -1);
 
 // The plan for reaching and manipulating a target.
 struct ReachPlan {
   double pitch = 0.0;                      // rad, of the gripper
+  int grasp = -1;                          // index into InteractionTarget::grasps; -1: none of them
   robot::JointVector grasp_configuration;  // (J) the grasp configuration
   bool clear = false;         // the straight joint path to the pre-grasp is collision-free
   JointPath waypoints;        // else the waypoints to the pre-grasp; empty: none found
@@ -43,10 +45,11 @@ struct PathOptions {
 // its destination, within 1 cm and 0.15 rad, and the arm must be collision-free in a receptacle and
 // in front of it. Plans that are clear are preferred: for round objects the closing axis may turn
 // for it. If possible, the object is grasped such that it can be carried on to interaction.next
-// too. With `path_options`.round, searches waypoints around obstacles if no plan is clear. None if
-// no pitch is feasible. Configurations are computed for both sides of the gripper, from `from` and
-// from random ones: a tool that only tracks a straight line to its target ends at a joint limit
-// every other time.
+// too. If the target has proved grasps, the most promising ones are tried before grasps from above
+// (RankGrasps). With `path_options`.round, searches waypoints around obstacles if no plan is clear.
+// None if no grasp and no pitch is feasible. Configurations are computed for both sides of the
+// gripper, from `from` and from random ones: a tool that only tracks a straight line to its target
+// ends at a joint limit every other time.
 std::optional<ReachPlan> PlanReach(const PlanningArm& context, const Interaction& interaction,
                                    const tasks::WorldState& state, const robot::JointVector& from,
                                    core::Rng& rng, const PathOptions& path_options = {});

@@ -23,6 +23,7 @@ constexpr double kReleased = 0.03;   // m between fingers that have released the
 constexpr double kAtRest = 0.005;    // m: the gripper is at the frame
 // m from the object to its destination, with the gripper at rest: too far to release it.
 constexpr double kSlid = 0.025;
+constexpr double kFromBelow = 0.5;   // of the tool's axis, upwards
 constexpr int kRestUpdates = 4;      // updates
 constexpr int kOpeningUpdates = 10;  // updates that the gripper waits to open
 constexpr int kStuckUpdates = 10;    // updates without progress; fingers open in 8
@@ -46,11 +47,14 @@ Vector3d MotionDirection(const Interaction& interaction, const tasks::WorldState
 }  // namespace
 
 TargetFrame::TargetFrame(const Interaction& interaction, const tasks::WorldState& state,
-                         const Vector3d& across, double pitch, const Vector3d& retreat)
-    : interaction_(interaction), across_(across) {
+                         const Vector3d& across, double pitch, const Vector3d& retreat, int grasp)
+    : interaction_(interaction), across_(across), grasp_(grasp) {
   if (!interaction_.target) return;
   (Pushes(interaction_) ? lean_ : pitch_) = pitch;
-  world_from_target_ = GraspPose(interaction_, state, across_, pitch_);
+  // An object that is held by one of its grasps keeps its pose in the gripper.
+  const bool keeps = interaction_.starts_held && !interaction_.target->grasps.empty();
+  world_from_target_ =
+      keeps ? state.gripper : GraspPose(interaction_, state, across_, pitch_, grasp_);
   across_ = world_from_target_.linear().col(1);
   const Eigen::Isometry3d& root = state.roots[static_cast<size_t>(interaction_.target->object)];
   grasp_point_ = root.inverse() * world_from_target_.translation();
@@ -154,6 +158,16 @@ void TargetFrame::UpdateGraspPoint(const tasks::WorldState& state) {
   updates_at_rest_ = 0;
 }
 
+// Turns the frame with an object that is moved before it is held. An object that has fallen over is
+// not grasped from below: the frame then keeps its orientation.
+void TargetFrame::FollowGrasp(const tasks::WorldState& state) {
+  if (state.grasped && state.touched == interaction_.target->object) return;
+  const Eigen::Isometry3d tool = GraspPose(interaction_, state, across_, pitch_, grasp_);
+  if (tool.linear()(2, 2) > kFromBelow) return;
+  world_from_target_.linear() = tool.linear();
+  across_ = tool.linear().col(1);
+}
+
 void TargetFrame::Follow(const tasks::WorldState& state) {
   const InteractionTarget& target = *interaction_.target;
   if (target.joint >= 0 || Pushes(interaction_)) {
@@ -170,6 +184,7 @@ void TargetFrame::Follow(const tasks::WorldState& state) {
     return;
   }
   if (at_destination_) UpdateGraspPoint(state);
+  if (grasp_ >= 0 && !at_destination_) FollowGrasp(state);
   world_from_target_.translation() = state.roots[static_cast<size_t>(target.object)] * grasp_point_;
   if (at_destination_)
     world_from_target_.translation() += DisplacementToDestination(interaction_, state);

@@ -12,11 +12,11 @@ namespace simwright::manipulation {
 class TargetFrame {
  public:
   // `state`: at the start of the episode; `across` (unit, world): the closing axis, tool y; `pitch`
-  // (rad): the approach pitch, both from PlanReach; `retreat` (m, world): the retreat
-  // displacement.
+  // (rad): the approach pitch, and `grasp` (ReachPlan::grasp), from PlanReach; `retreat` (m,
+  // world): the retreat displacement.
   TargetFrame(const Interaction& interaction, const tasks::WorldState& state,
               const Eigen::Vector3d& across, double pitch,
-              const Eigen::Vector3d& retreat = Eigen::Vector3d::Zero());
+              const Eigen::Vector3d& retreat = Eigen::Vector3d::Zero(), int grasp = -1);
 
   // Rotates the frame at the destination, and with it the direction of approach, by `angle` (rad)
   // about the vertical.
@@ -45,6 +45,7 @@ class TargetFrame {
  private:
   void UpdateAtDestination(const tasks::WorldState& state);
   void Follow(const tasks::WorldState& state);
+  void FollowGrasp(const tasks::WorldState& state);
   void UpdateGraspPoint(const tasks::WorldState& state);
   bool Withdraws(const tasks::WorldState& state);
   void ComputeRetreat(const tasks::WorldState& state);
@@ -53,6 +54,7 @@ class TargetFrame {
   Eigen::Isometry3d world_from_target_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d across_;  // unit, world: the closing axis
   double pitch_ = 0.0, lean_ = 0.0;
+  int grasp_ = -1;  // index into InteractionTarget::grasps
   Eigen::Vector3d free_way_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d grasp_point_ = Eigen::Vector3d::Zero();  // m, object frame: the grasp point
   bool at_destination_ = false;

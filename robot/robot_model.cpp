@@ -219,6 +219,11 @@ RobotModel Assembler::Assemble() {
 
 }  // namespace
 
+double Gripper::LeaderAt(double opening) const {
+  const double share = std::clamp(opening / MaxOpening(), 0.0, 1.0);
+  return closed + share * (open - closed);
+}
+
 double Gripper::Opening(double position) const {
   return opening_ratio * std::abs(position - closed);
 }

@@ -24,6 +24,8 @@ struct Gripper {
   // Returns the finger opening in m with the leader at `position`.
   double Opening(double position) const;
   double MaxOpening() const { return Opening(open); }
+  // Returns the position of the leader at a finger opening of `opening` m, within its range.
+  double LeaderAt(double opening) const;
 };
 
 // A robot: its URDF and the data that URDF cannot express. Immutable and thread-safe.

@@ -75,7 +75,7 @@ void Episode::StartPlan() {
   const Eigen::Matrix3d& world_from_base = variant.subtask.start.world_from_robot.linear();
   frame_ = std::make_unique<manipulation::TargetFrame>(
       variant, state_, world_from_base * grasp_configuration.linear().col(1), start_.pitch,
-      start_.retreat);
+      start_.retreat, start_.grasp);
   const bool planned = FollowsPlan(skill_.options.action) && !frame_->retreating();
   command_.goal = planned ? start_.grasp_configuration : start_.arm;
   command_.waypoints = planned ? start_.waypoints : manipulation::JointPath();

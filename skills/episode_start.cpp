@@ -201,6 +201,7 @@ void SearchPath(const Skill& skill, const SkillVariant& variant, const tasks::Wo
 void ApplyPlan(const Skill& skill, const SkillVariant& variant, const manipulation::ReachPlan& plan,
                StartState* start) {
   start->pitch = plan.pitch;
+  start->grasp = plan.grasp;
   start->grasp_configuration = plan.grasp_configuration;
   start->waypoints = WaypointsTo(skill, variant, start->state, plan);
 }
@@ -317,7 +318,9 @@ void PlaceArm(const Skill& skill, bool grasp_configuration, core::Rng& rng, Star
     start->waypoints.clear();
   }
   // A wall is thin: fingers that begin near it close sooner.
-  if (start->held >= 0 && variant.target->rim > 0.0) {
+  if (start->held >= 0 && start->grasp >= 0) {
+    start->leader = gripper.LeaderAt(OpeningFor(skill, *start));
+  } else if (start->held >= 0 && variant.target->rim > 0.0) {
     start->leader = gripper.closed + kNearWall * (gripper.open - gripper.closed);
   }
   if (grasp_configuration && start->held < 0) {
@@ -327,6 +330,13 @@ void PlaceArm(const Skill& skill, bool grasp_configuration, core::Rng& rng, Star
 }
 
 }  // namespace
+
+double OpeningFor(const Skill& skill, const StartState& start) {
+  const double widest = skill.robot->gripper.MaxOpening();
+  if (start.grasp < 0) return widest;
+  const SkillVariant& variant = skill.variants[static_cast<size_t>(start.variant)];
+  return std::min(widest, variant.target->grasps[static_cast<size_t>(start.grasp)].opening);
+}
 
 StartState SampleStart(const Skill& skill, core::Rng& rng) {
   const SkillOptions& options = skill.options;
@@ -365,6 +375,7 @@ StartState PlannedFrom(const Skill& skill, const StartState& from, core::Rng& rn
   if (everything && start.held < 0) Perturb(skill, kPerturbation, rng, &start.arm);
   start.grasp_configuration = start.arm;
   start.pitch = 0.0;
+  start.grasp = -1;
   start.retreat.setZero();
   start.waypoints.clear();
   if (start.held >= 0 && variant.room) {

@@ -21,6 +21,7 @@ struct StartState {
   // PlanReach.
   double pitch = 0.0;
   robot::JointVector grasp_configuration;
+  int grasp = -1;  // index into InteractionTarget::grasps, from PlanReach; -1: none
   // The displacement (m, world) by which an empty gripper retreats from where the previous skill
   // ended before it approaches its target (TargetFrame). Zero: no retreat.
   Eigen::Vector3d retreat = Eigen::Vector3d::Zero();
@@ -44,6 +45,10 @@ struct StartState {
 // 0.4 m, or towards it by up to 0.2 m. For the first skill of a task, prefers start states in which
 // later skills are reachable too (IsDownstreamReachable).
 StartState SampleStart(const Skill& skill, core::Rng& rng);
+
+// Returns the opening (m) of the fingers before they close on the target: that of the planned
+// grasp, else the gripper's largest.
+double OpeningFor(const Skill& skill, const StartState& start);
 
 // Returns the movable object that both fingers grasp; -1: none.
 int HeldObject(const SkillVariant& variant, const tasks::WorldState& state);

@@ -19,6 +19,9 @@ using Eigen::Vector3d;
 // The fingers close within the first deviation from the target and open again beyond the second: a
 // part that yields between the fingers is not lost.
 constexpr double kScriptedExpertNear = 0.03, kLost = 0.045;  // m
+// The least of the first deviation. It shrinks with the opening: fingers that are nearly closed would
+// close above a thin object.
+constexpr double kNarrowNear = 0.012;  // m
 constexpr double kAligned = 0.3, kTwisted = 0.8;             // rad
 constexpr double kGripGain = 3.0;  // of the finger command, over the deviation
 // The deviation, relative to that at which the fingers open again, up to which the gripper pulls. A
@@ -51,8 +54,9 @@ struct ExpertInput {
   double angle = 0.0;      // rad, rotation of the tool from the target frame
   double commanded = 0.0;  // share of the opening that the fingers are commanded to
   bool succeeding = false;
-  double widest = 0.0;  // m, the maximum opening
-  size_t number = 0;    // of the variant
+  double widest = 0.0;   // m, the maximum opening
+  double opening = 0.0;  // m, before the fingers close on a free object
+  size_t number = 0;     // of the variant
   const std::vector<std::shared_ptr<const Skill>>& later_skills;
 };
 
@@ -72,6 +76,7 @@ ExpertInput InputOf(const Episode& episode) {
           gripper.Opening(episode.command().leader) / gripper.MaxOpening(),
           episode.succeeding(),
           gripper.MaxOpening(),
+          OpeningFor(skill, episode.start()),
           static_cast<size_t>(episode.start().variant),
           skill.later_skills};
 }
@@ -79,7 +84,9 @@ ExpertInput InputOf(const Episode& episode) {
 // Returns the deviation of the gripper from its target, relative to that at which the fingers at
 // their current opening reverse.
 double Deviation(const ExpertInput& input) {
-  const double distance = kLost + input.commanded * (kScriptedExpertNear - kLost);
+  const double share = input.opening / input.widest;
+  const double near = std::max(kNarrowNear, share * kScriptedExpertNear);
+  const double distance = kLost + std::min(1.0, input.commanded / share) * (near - kLost);
   const double angle = kTwisted + input.commanded * (kAligned - kTwisted);
   return std::max(input.off.norm() / distance, input.angle / angle);
 }
@@ -130,19 +137,24 @@ bool HasHorizontalHinge(const ExpertInput& input) {
 
 // Returns the opening (m) of the fingers for a part: if the gripper leans, one fingertip is lower
 // than the other, and wide open it would touch the lid and never close.
-double OpeningFor(const ExpertInput& input) {
+double OpeningForPart(const ExpertInput& input) {
   if (!HasHorizontalHinge(input)) return input.widest;
   const manipulation::TargetGeometry part = manipulation::GeometryOf(
       input.variant.model, input.state, *input.variant.target, input.frame.world_from_target());
   return std::min(input.widest, part.size.y() + 2.0 * kSpare);
 }
 
+// Returns the finger command for an `opening` (m): `grip`, which opens, unless that is too wide.
+double OpenTo(double opening, double grip, const ExpertInput& input) {
+  const double share = opening / input.widest;
+  return share < 1.0 ? std::clamp(kGripGain * (share - input.commanded), -1.0, 1.0) : grip;
+}
+
 void ManipulatePart(const ExpertInput& input, float* action) {
   double grip = FingerCommand(input);
   if (grip > 0.0) {
     StandOff(input, action);
-    const double opening = OpeningFor(input) / input.widest;
-    if (opening < 1.0) grip = std::clamp(kGripGain * (opening - input.commanded), -1.0, 1.0);
+    grip = OpenTo(OpeningForPart(input), grip, input);
   }
   action[6] = static_cast<float>(grip);
   const double pull = std::clamp(kGripGain * (kLargestPullDeviation - Deviation(input)), 0.0, 1.0) *
@@ -205,9 +217,12 @@ void Carry(const ExpertInput& input, float* action) {
     action[6] = static_cast<float>(std::clamp(early, -1.0, 1.0));
     return;
   }
-  const double grip = FingerCommand(input);
+  double grip = FingerCommand(input);
+  if (grip > 0.0) {
+    StandOff(input, action);
+    grip = OpenTo(input.opening, grip, input);
+  }
   action[6] = static_cast<float>(grip);
-  if (grip > 0.0) StandOff(input, action);
   const bool held = input.state.grasped && input.state.touched == input.variant.target->object;
   if (!held || input.variant.destination) return;
   const Vector3d up = input.frame.world_from_target().linear().transpose() * Vector3d::UnitZ();

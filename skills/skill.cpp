@@ -98,6 +98,14 @@ void FindTarget(double opening, SkillVariant* variant) {
   }
 }
 
+// Writes the proved grasps of an object that is grasped.
+void FindGrasps(const SkillSubtask& source, SkillVariant* variant) {
+  if (!variant->target || variant->target->joint >= 0 || !variant->asks_for_grasp) return;
+  const auto object = static_cast<size_t>(variant->target->object);
+  const auto known = source.grasps.find(variant->model.objects[object].name);
+  if (known != source.grasps.end()) variant->target->grasps = known->second;
+}
+
 // Returns SkillVariant::next.
 std::optional<manipulation::Destination> NextDestination(const SkillSubtask& source,
                                                          const SkillVariant& variant,
@@ -136,8 +144,9 @@ void PrepareBodies(const std::vector<assets::SemanticModel>& models, const Skill
     sim::ArticulatedBody body =
         sim::ArticulatedBodyFrom(models[i].model, variant->model.objects[i].kinematics);
     const bool worked = variant->target && variant->target->object == static_cast<int>(i);
-    // A convex hull has no wall to grasp.
-    const bool only_moved = worked && body.joints().empty() && variant->target->rim == 0.0;
+    // A convex hull has no wall and no handle to grasp.
+    const bool only_moved = worked && body.joints().empty() && variant->target->rim == 0.0 &&
+                            variant->target->grasps.empty();
     if (options.hulls && only_moved && !body.links.front().parts.empty()) UseConvexHull(&body);
     std::vector<int> joints;
     for (const tasks::ObjectJoint& joint : variant->model.objects[i].joints) {
@@ -159,6 +168,7 @@ SkillVariant MakeVariant(const SkillSubtask& source, const robot::RobotModel& ro
   SkillPlaceObjects(&variant);
   CompileProgram(&variant);
   FindTarget(robot.gripper.MaxOpening(), &variant);
+  FindGrasps(source, &variant);
   variant.next = NextDestination(source, variant, robot.gripper.MaxOpening());
   variant.room = FindReceptacle(variant);
   PrepareBodies(source.assets, options, &variant);

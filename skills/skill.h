@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "assets/link_visuals.h"
 #include "assets/semantic_model.h"
+#include "manipulation/grasp.h"
 #include "manipulation/interaction.h"
 #include "reward/reward_program.h"
 #include "robot/pose_inverse_kinematics.h"
@@ -21,6 +23,9 @@ namespace simwright::skills {
 // A subtask and the assets that it names.
 struct SkillSubtask {
   std::vector<assets::SemanticModel> assets;
+  // The proved grasps of rigid assets by the robot's gripper, by name of the asset; in the asset's
+  // frame.
+  std::map<std::string, std::vector<manipulation::Grasp>> grasps;
   tasks::Subtask subtask;
   std::optional<tasks::Subtask> next;  // the next subtask of the task
 };

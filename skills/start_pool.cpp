@@ -71,6 +71,10 @@ StartState StartFrom(const JsonField& text, const Skill& skill) {
   start.leader = text["leader"].Number();
   if (text.Has("closed_to")) start.closed_to = text["closed_to"].Number();
   start.pitch = text["pitch"].Number();
+  if (text.Has("grasp")) {
+    const size_t grasps = variant.target ? variant.target->grasps.size() : 0;
+    start.grasp = text["grasp"].Int(0, static_cast<int>(grasps) - 1);
+  }
   if (text.Has("withdraw")) {
     start.retreat = text["withdraw"].Vector<3>();
     if (start.retreat.norm() > kLongestRetreat) text["withdraw"].Fail("is too long");
@@ -110,6 +114,7 @@ std::string StartText(const StartState& start) {
   text["leader"] = start.leader;
   if (start.closed_to) text["closed_to"] = *start.closed_to;
   text["pitch"] = start.pitch;
+  if (start.grasp >= 0) text["grasp"] = start.grasp;
   if (!start.retreat.isZero()) {
     text["withdraw"] = {start.retreat.x(), start.retreat.y(), start.retreat.z()};
   }

@@ -93,7 +93,7 @@ OrderedJson TargetJson(const Skill& skill, const SkillVariant& variant, const Ta
       robot::ForwardKinematics(skill.robot->arm, start.grasp_configuration);
   const manipulation::TargetFrame frame(
       variant, start.state, variant.subtask.start.world_from_robot.linear() * grasp.linear().col(1),
-      start.pitch, start.retreat);
+      start.pitch, start.retreat, start.grasp);
   // A part's frame moves with its link, a free object's with the object.
   const auto link = static_cast<size_t>(target.joint >= 0 ? target.link : 0);
   const Eigen::Isometry3d world_from_link =

@@ -107,6 +107,7 @@ ArticulatedObject MakeArticulatedObject(const std::string& name,
   ArticulatedObject object;
   object.name = name;
   object.category = model.category;
+  object.graspable = model.graspable;
   object.kinematics = assets::MakeKinematicModel(model.model);
   std::map<std::string, reward::RewardJoint> moving;  // with the limits that programs read
   for (const reward::RewardJoint& joint : MakeRewardAsset(name, model.model).joints) {

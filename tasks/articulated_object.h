@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,7 @@ struct ArticulatedObject {
   std::vector<Receptacle> receptacles;  // largest first
   Eigen::AlignedBox3d box;              // of all links, joints at rest, root frame
   double mass = 0.0;                    // kg
+  std::optional<bool> graspable;        // assets::SemanticModel::graspable
   bool articulated() const { return !joints.empty(); }
   // Returns a link's name in the kinematic model.
   const std::string& LinkName(int link) const {

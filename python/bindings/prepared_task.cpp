@@ -41,6 +41,7 @@ PreparedTask::PreparedTask(const std::filesystem::path& file, const std::vector<
                            const TaskSettings& settings) {
   run_.robot = settings.robot;
   run_.options = OptionsOf(settings);
+  run_.proved_grasps = settings.proved_grasps;
   run_.set = workflows::ChooseTasks(tasks::ReadTaskFile(file), tasks, file.string());
   skills_ = workflows::PrepareSkills(run_);
 }
@@ -94,7 +95,9 @@ void BindPreparedTask(nb::module_& module) {
       .def_rw("delta_share", &TaskSettings::delta_share,
               "share of reach and turn of one decision's step with delta and joints; None: 0.25")
       .def_rw("finger_friction", &TaskSettings::finger_friction,
-              "(low, high) of the fingers' coefficient, sampled per episode; None: the robot's");
+              "(low, high) of the fingers' coefficient, sampled per episode; None: the robot's")
+      .def_rw("proved_grasps", &TaskSettings::proved_grasps,
+              "whether rigid objects are grasped by the grasps of their grasps.json");
   nb::class_<PreparedTask>(module, "PreparedTask",
                            "Tasks of a tasks.json, ready to run. Constant and thread-safe.")
       .def(

@@ -21,6 +21,7 @@ struct TaskSettings {
   std::optional<double> episode_seconds;
   std::optional<double> reach, turn, delta_share;  // skills::SkillOptions
   std::optional<std::pair<double, double>> finger_friction;
+  bool proved_grasps = true;  // workflows::SkillRun::proved_grasps
 };
 
 using JointRange = std::tuple<std::string, double, double>;  // name, lower, upper (rad or m)

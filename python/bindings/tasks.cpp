@@ -135,6 +135,7 @@ nb::dict ReadRun(const fs::path& folder) {
   dict["robot"] = run.robot;
   dict["action_space"] = std::string(skills::NameOf(run.options.action));
   dict["episode_seconds"] = run.options.episode_seconds;
+  dict["proved_grasps"] = run.proved_grasps;
   dict["finger_friction"] = nb::none();
   if (run.options.finger_friction) {
     dict["finger_friction"] =

@@ -21,7 +21,7 @@ def environment_settings(run: dict[str, Any]) -> dict[str, Any]:
         else of ``SkillEnv``.
     """
     settings = {name: run[name] for name in ("tasks", "robot", "action_space", "episode_seconds",
-                                             "finger_friction")}
+                                             "finger_friction", "proved_grasps")}
     if len(run["subtasks"]) > 1:
         settings["long"] = True
     return settings

@@ -29,7 +29,7 @@ _ACTION_SPACES = ("focus", "guided", "delta", "osc_delta", "absolute", "joints",
 
 
 def settings_of(action_space: ActionSpace, robot: str, episode_seconds: float | None,
-                finger_friction: Range | None) -> _core.TaskSettings:
+                finger_friction: Range | None, proved_grasps: bool) -> _core.TaskSettings:
     if not isinstance(action_space, str) or action_space not in _ACTION_SPACES:
         raise _core.Error(f"action_space: is {checked.shown(action_space)} "
                           f"(give one of {', '.join(_ACTION_SPACES)})")
@@ -39,6 +39,8 @@ def settings_of(action_space: ActionSpace, robot: str, episode_seconds: float | 
     if episode_seconds is not None:
         settings.episode_seconds = checked.number("episode_seconds", episode_seconds)
     settings.finger_friction = checked.optional_range("finger_friction", finger_friction)
+    settings.proved_grasps = checked.instance("proved_grasps", proved_grasps, bool,
+                                              "give True or False")
     if action_space == "osc_delta":
         for name, value in _OSC_SETTINGS.items():
             setattr(settings, name, value)
@@ -100,9 +102,10 @@ class Worlds:
 
     def _prepare(self, file: str, robot: str, patterns: Names, action_space: ActionSpace,
                  subtask: int | None, episode_seconds: float | None,
-                 finger_friction: Range | None) -> None:
+                 finger_friction: Range | None, proved_grasps: bool) -> None:
         """Reads the tasks of a file; `subtask` is None where all are executed."""
-        settings = settings_of(action_space, robot, episode_seconds, finger_friction)
+        settings = settings_of(action_space, robot, episode_seconds, finger_friction,
+                               proved_grasps)
         self.task = _core.PreparedTask(file, checked.texts("task", patterns), settings)
         self.tasks_file, self.robot, self.action_space_name = file, robot, action_space
         self.subtask_index = subtask

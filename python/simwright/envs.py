@@ -62,6 +62,8 @@ class SkillEnv(Worlds, gymnasium.Env):
         progress: see ``simwright``; making the objects of a cell takes up to a minute once.
         finger_friction (low, high): range of the fingers' friction coefficient, sampled for each
             episode; None: the robot's.
+        proved_grasps (bool): whether rigid objects are grasped by the proved grasps of their
+            grasps.json, where there is one (docs/grasps.md), else from above.
 
     Observations are (O) float32, about 1 in size (docs/skills.md). ``info`` has ``success`` (the
     goal holds now), ``is_success`` (it held for half a second, which ends the episode) and, after a
@@ -78,11 +80,12 @@ class SkillEnv(Worlds, gymnasium.Env):
                  image_size: ImageSize = 128, images: ImageKinds = ("rgb",), look: Look = None,
                  render_mode: RenderMode | None = None, render_size: tuple[int, int] = (480, 360),
                  progress: ProgressArgument = None,
-                 finger_friction: Range | None = None) -> None:
+                 finger_friction: Range | None = None, proved_grasps: bool = True) -> None:
         subtask = checked.integer("subtask", subtask, 0)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
         file, robot = task_file(cell, tasks, robot, split, instances, progress)
-        self._prepare(file, robot, task, action_space, subtask, episode_seconds, finger_friction)
+        self._prepare(file, robot, task, action_space, subtask, episode_seconds, finger_friction,
+                      proved_grasps)
         self._episode = _core.SingleEpisode(self.task, subtask, not easy_starts)
         self._eyes = self._make_cameras(subtask, not easy_starts)
         if self._eyes is not None:
@@ -165,12 +168,13 @@ class SkillVectorEnv(Worlds, gymnasium.vector.VectorEnv):
                  image_size: ImageSize = 128, images: ImageKinds = ("rgb",), look: Look = None,
                  render_mode: RenderMode | None = None, render_size: tuple[int, int] = (480, 360),
                  progress: ProgressArgument = None,
-                 finger_friction: Range | None = None) -> None:
+                 finger_friction: Range | None = None, proved_grasps: bool = True) -> None:
         self.num_envs = checked.integer("num_envs", num_envs, 1)
         subtask = checked.integer("subtask", subtask, 0)
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
         file, robot = task_file(cell, tasks, robot, split, instances, progress)
-        self._prepare(file, robot, task, action_space, subtask, episode_seconds, finger_friction)
+        self._prepare(file, robot, task, action_space, subtask, episode_seconds, finger_friction,
+                      proved_grasps)
         self._episodes = _core.VectorEpisodes(self.task, subtask, self.num_envs, not easy_starts)
         self._eyes = self._make_cameras(subtask, not easy_starts)
         if self._eyes is not None:
@@ -276,7 +280,7 @@ class LongTaskEnv(Worlds, gymnasium.Env):
                  image_size: ImageSize = 128, images: ImageKinds = ("rgb",), look: Look = None,
                  render_mode: RenderMode | None = None, render_size: tuple[int, int] = (480, 360),
                  progress: ProgressArgument = None,
-                 finger_friction: Range | None = None) -> None:
+                 finger_friction: Range | None = None, proved_grasps: bool = True) -> None:
         if (name is None) == (tasks is None):
             raise _core.Error("environment: needs a long task, or a tasks.json (give name= or tasks=)")
         pictures = self._choose_cameras(cameras, image_size, images, look, render_mode, render_size)
@@ -285,7 +289,7 @@ class LongTaskEnv(Worlds, gymnasium.Env):
             known = next(entry for entry in _core.long_tasks() if entry["name"] == name)
             robot = robot or known["robot"]
         self._prepare(checked.path("tasks", cast("Path", tasks)), robot or "panda", task,
-                      action_space, None, episode_seconds, finger_friction)
+                      action_space, None, episode_seconds, finger_friction, proved_grasps)
         count = len(self.task.subtasks)
         self._episodes = [_core.SingleEpisode(self.task, index, True) for index in range(count)]
         for index, episode in enumerate(self._episodes):

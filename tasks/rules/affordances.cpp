@@ -130,6 +130,7 @@ bool HasHandle(const ArticulatedObject& object) {
 
 bool CanBeLifted(const ArticulatedObject& object) {
   if (object.articulated() || object.mass > kPayload) return false;
+  if (object.graspable) return *object.graspable;
   const Eigen::Vector3d size = object.box.sizes();
   if (size.maxCoeff() > kLongestAffordance || size.z() < kMinHeight) return false;
   const bool narrow = size.head<2>().minCoeff() <= kMaxGraspWidth;
@@ -158,6 +159,12 @@ UnusableReason ExplainUnusable(const ArticulatedObject& object) {
     std::snprintf(text, sizeof(text), "its size of %.3g m exceeds the pushable %.3g m",
                   size.maxCoeff(), 2.0 * kLongestAffordance);
     return {text, "give its true --size on import"};
+  }
+  if (object.graspable) {
+    return {
+        "none of its proved grasps clears the plane on which it stands, and it is too flat to "
+        "push",
+        "place it on a support that its edge overhangs, or try `simwright grasps --count 1000`"};
   }
   std::snprintf(text, sizeof(text), "it is %.3g m high, too flat to grasp or to push", size.z());
   return {text, "place it on a support, or make it thicker"};

@@ -33,7 +33,8 @@ constexpr double kPayload = 2.5;          // kg
 // cm beyond those that are not slim, or, where all are slim, a rod at least twice as long as wide.
 bool HasHandle(const ArticulatedObject& object);
 
-// Returns true if one gripper can lift the object: it is narrow enough somewhere, or has a
+// Returns true if one gripper can lift the object: a proved grasp takes it off its support
+// (ArticulatedObject::graspable). Without known grasps: it is narrow enough somewhere, or has a
 // graspable rim or handle.
 bool CanBeLifted(const ArticulatedObject& object);
 

@@ -15,7 +15,12 @@
 #include "core/random.h"
 #include "manipulation/grasp_file.h"
 #include "robot/panda_model.h"
+#include "skills/skill_evaluation.h"
+#include "tasks/rules/rule_tasks.h"
+#include "tasks/world_state.h"
 #include "workflows/grasps/grasp_making.h"
+#include "workflows/skills/skill_run.h"
+#include "workflows/tasks/task_assets.h"
 
 namespace simwright::workflows {
 namespace {
@@ -63,6 +68,34 @@ certificate::PlacedScene PickScene(std::shared_ptr<const certificate::BodyModel>
                           Isometry3d(Eigen::Translation3d(0.3, 0.0, 0.5 * kTableHeight)), true});
   scene.bodies.push_back({"object", std::move(object), world_from_object, false});
   return scene;
+}
+
+// Returns the successes of the scripted expert in `episodes` episodes of the subtask that picks up
+// the asset in `folder`; 0 if the rules make no such subtask.
+int ExpertPicks(const std::filesystem::path& folder, bool proved_grasps, int episodes,
+                std::uint64_t seed) {
+  tasks::TaskSet set;
+  TaskAssets assets = ReadTaskAssets({"object=" + folder.string()});
+  set.assets = assets.listed;
+  // The object is picked up whatever its grasps: an expert that takes it from above knows none.
+  assets.models.front().graspable = true;
+  const tasks::RuleOptions options{.count = 0, .seed = seed};
+  const tasks::RuleTasks made =
+      tasks::GenerateTasksByRules(tasks::MakeWorldModel(assets.models), options);
+  for (const tasks::Task& task : made.tasks) {
+    if (task.name != "pick_up_object") continue;
+    set.tasks = {task};
+    set.tasks.front().subtasks.resize(1);
+    break;
+  }
+  if (set.tasks.empty()) return 0;
+  SkillRun run;
+  run.set = set;
+  run.proved_grasps = proved_grasps;
+  const std::vector<RunSkill> skills = PrepareSkills(run);
+  const skills::Skill& skill = *skills.front().evaluated;
+  return skills::EvaluateScriptedExpert(skill, skills::SampleStarts(skill, episodes, seed))
+      .successes;
 }
 
 // Plans a pick and replays it; returns why it failed, or nothing.
@@ -125,27 +158,38 @@ std::vector<PickTestRow> RunPickTest(const PickTestRequest& request, core::Progr
     row.with_sampled += sampled[i].empty() ? 1 : 0;
     if (!proved[i].empty()) row.failure = proved[i];
   }
+  if (progress != nullptr) progress->Stage("expert", static_cast<std::int64_t>(rows.size()));
+  for (size_t i = 0; i < rows.size(); ++i) {
+    rows[i].expert_proved = ExpertPicks(request.assets[i], true, request.poses, request.seed);
+    rows[i].expert_from_above = ExpertPicks(request.assets[i], false, request.poses, request.seed);
+    if (progress != nullptr) progress->Advance();
+  }
   if (progress != nullptr) progress->Finish();
   return rows;
 }
 
 std::string PickTestTable(const std::vector<PickTestRow>& rows) {
-  std::string table = "object                picks  proved  sampled\n";
-  int picks = 0, proved = 0, sampled = 0;
-  const auto add = [&](const std::string& name, int poses, int first, int second,
-                       const std::string& failure) {
+  std::string table =
+      "                             planner          scripted expert\n"
+      "object                picks  proved  sampled  proved  from above\n";
+  PickTestRow all;
+  all.asset = "all";
+  const auto add = [&](const PickTestRow& row) {
     char line[400];
-    std::snprintf(line, sizeof(line), "%-20s  %5d  %6d  %7d  %s\n", name.c_str(), poses, first,
-                  second, failure.c_str());
+    std::snprintf(line, sizeof(line), "%-20s  %5d  %6d  %7d  %6d  %10d  %s\n", row.asset.c_str(),
+                  row.poses, row.with_proved, row.with_sampled, row.expert_proved,
+                  row.expert_from_above, row.failure.c_str());
     table += line;
   };
   for (const PickTestRow& row : rows) {
-    add(row.asset, row.poses, row.with_proved, row.with_sampled, row.failure);
-    picks += row.poses;
-    proved += row.with_proved;
-    sampled += row.with_sampled;
+    add(row);
+    all.poses += row.poses;
+    all.with_proved += row.with_proved;
+    all.with_sampled += row.with_sampled;
+    all.expert_proved += row.expert_proved;
+    all.expert_from_above += row.expert_from_above;
   }
-  add("all", picks, proved, sampled, "");
+  add(all);
   return table;
 }
 
@@ -157,6 +201,8 @@ std::string PickTestJson(const std::vector<PickTestRow>& rows) {
                              {"poses", row.poses},
                              {"with_proved", row.with_proved},
                              {"with_sampled", row.with_sampled},
+                             {"expert_proved", row.expert_proved},
+                             {"expert_from_above", row.expert_from_above},
                              {"failure", row.failure}});
   }
   return core::JsonText(json);

@@ -191,6 +191,7 @@ void SplitEpisodes(robot::DemonstrationSet* set) {
 skills::StartState Continued(const skills::StartState& end, const skills::StartState& planned) {
   skills::StartState start = end;
   start.pitch = planned.pitch;
+  start.grasp = planned.grasp;
   start.retreat = planned.retreat;
   start.grasp_configuration = planned.grasp_configuration;
   start.waypoints = planned.waypoints;

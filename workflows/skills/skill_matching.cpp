@@ -123,6 +123,7 @@ class Matcher {
   }
 
   std::string FaultOf(const tasks::Task& one) {
+    run_.proved_grasps = false;
     run_.set.tasks = {one};
     if (!match_.set.tasks.empty()) run_.set.tasks.push_back(match_.set.tasks.front());
     run_.set.assets = AssetsOf(run_.set.tasks);

@@ -93,6 +93,7 @@ RolloutReport RollOutShippedSkill(const RolloutRequest& request, core::Progress*
   run.folder = folder.path();
   run.robot = shipped.cell.robot;
   run.options.action = shipped.action;
+  run.proved_grasps = false;  // shipped policies learnt to grasp from above
   run.options.finger_friction = TrainRequest().finger_friction;
   if (request.finger_friction) {
     run.options.finger_friction =

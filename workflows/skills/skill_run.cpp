@@ -15,6 +15,7 @@
 #include "core/json.h"
 #include "robot/panda_model.h"
 #include "tasks/task_file.h"
+#include "workflows/grasps/asset_grasps.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
@@ -42,6 +43,7 @@ core::Json RunJson(const SkillRun& run) {
   text["episode_seconds"] = run.options.episode_seconds;
   text["discount"] = run.options.discount;
   text["action"] = skills::NameOf(run.options.action);
+  text["proved_grasps"] = run.proved_grasps;
   if (run.options.finger_friction) {
     text["finger_friction"] = {run.options.finger_friction->low, run.options.finger_friction->high};
   }
@@ -53,6 +55,29 @@ std::optional<skills::FactorRange> FingerFrictionOf(const core::JsonField& text)
   if (!text.Has("finger_friction")) return std::nullopt;
   const std::vector<double> range = text["finger_friction"].Numbers(2);
   return skills::FactorRange{range[0], range[1]};
+}
+
+// An asset of a task with its proved grasps.
+struct TaskObject {
+  assets::SemanticModel model;
+  std::vector<manipulation::Grasp> grasps;
+};
+
+// Returns the assets by name, with their grasps for `robot`; null: without grasps.
+std::map<std::string, TaskObject> ReadTaskObjects(const tasks::TaskSet& set,
+                                                  const robot::RobotModel* robot,
+                                                  core::Findings* findings) {
+  core::Findings unread;
+  std::map<std::string, TaskObject> objects;
+  for (const tasks::TaskAsset& asset : set.assets) {
+    TaskObject object{assets::ReadSemanticModel(asset.path), {}};
+    object.model.name = asset.name;
+    if (robot != nullptr) {
+      object.grasps = GraspsForRobot(asset.path, *robot, findings != nullptr ? findings : &unread);
+    }
+    objects.emplace(asset.name, std::move(object));
+  }
+  return objects;
 }
 
 std::vector<std::string> HashesOf(const tasks::TaskSet& set) {
@@ -148,6 +173,8 @@ SkillRun ReadRun(const fs::path& folder) {
   run.options.episode_seconds = text["episode_seconds"].Number();
   run.options.discount = text["discount"].Number();
   run.options.action = skills::ActionSpaceOf(text["action"].Text());
+  // Runs from before grasps were proved took objects from above.
+  run.proved_grasps = text.Has("proved_grasps") && text["proved_grasps"].Flag();
   run.options.finger_friction = FingerFrictionOf(text);
   run.set = tasks::ReadTaskFile(folder / kTasksFile);
   const std::vector<std::string> now = HashesOf(run.set);
@@ -174,23 +201,32 @@ fs::path SkillFolder(const SkillRun& run, int number, const std::string& subtask
   return run.folder / (std::to_string(number) + "_" + subtask);
 }
 
-std::vector<RunSkill> PrepareSkills(const SkillRun& run) {
-  return PrepareSkillsOn(run.set, run);
+std::map<std::string, int> GraspCounts(const std::vector<RunSkill>& skills) {
+  std::map<std::string, int> counts;
+  for (const RunSkill& skill : skills) {
+    for (const skills::SkillVariant& variant : skill.skill->variants) {
+      if (!variant.target || variant.target->grasps.empty()) continue;
+      const auto object = static_cast<size_t>(variant.target->object);
+      counts[variant.model.objects[object].name] = static_cast<int>(variant.target->grasps.size());
+    }
+  }
+  return counts;
 }
 
-std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun& run) {
+std::vector<RunSkill> PrepareSkills(const SkillRun& run, core::Findings* findings) {
+  return PrepareSkillsOn(run.set, run, findings);
+}
+
+std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun& run,
+                                      core::Findings* findings) {
   const std::vector<tasks::Subtask>& named = run.set.tasks.front().subtasks;
   if (set.tasks.front().subtasks.size() != named.size()) {
     throw core::Error("differs in its number of subtasks from '" + run.set.tasks.front().name + "'",
                       set.tasks.front().name, "choose a task with the same steps");
   }
-  std::map<std::string, assets::SemanticModel> models;
-  for (const tasks::TaskAsset& asset : set.assets) {
-    assets::SemanticModel model = assets::ReadSemanticModel(asset.path);
-    model.name = asset.name;
-    models.emplace(asset.name, std::move(model));
-  }
   const robot::RobotModel& robot = RobotOf(run.robot);
+  const std::map<std::string, TaskObject> objects =
+      ReadTaskObjects(set, run.proved_grasps ? &robot : nullptr, findings);
   std::vector<RunSkill> skills(named.size());
   std::vector<std::shared_ptr<const skills::Skill>> later;  // of the first one, which is made last
   for (size_t k = named.size(); k-- > 0;) {
@@ -199,7 +235,11 @@ std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun&
       skills::SkillSubtask& one = subtasks.emplace_back();
       one.subtask = task.subtasks[k];
       if (k + 1 < task.subtasks.size()) one.next = task.subtasks[k + 1];
-      for (const std::string& name : task.assets) one.assets.push_back(models.at(name));
+      for (const std::string& name : task.assets) {
+        const TaskObject& object = objects.at(name);
+        one.assets.push_back(object.model);
+        if (!object.grasps.empty()) one.grasps[name] = object.grasps;
+      }
     }
     RunSkill& skill = skills[k];
     skill.name = named[k].name;

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/finding.h"
 #include "skills/skill.h"
 #include "tasks/task.h"
 
@@ -21,6 +23,9 @@ struct SkillRun {
   std::vector<std::string> hashes;  // content hashes of set.assets at the start of the run
   std::string robot = "panda";      // panda, panda_on_base, or a URDF with its side file
   skills::SkillOptions options;
+  // True if rigid objects are grasped by the proved grasps of their grasps.json, where they have
+  // one (docs/grasps.md); else from above.
+  bool proved_grasps = true;
   int environments = 64;
   std::uint64_t seed = 1;
 };
@@ -60,11 +65,15 @@ std::filesystem::path SkillFolder(const SkillRun& run, int number, const std::st
 // Returns the robot of this name; it lives as long as the program.
 const robot::RobotModel& RobotOf(const std::string& name);
 
-// Reads the assets and prepares each subtask.
-std::vector<RunSkill> PrepareSkills(const SkillRun& run);
+// Reads the assets and prepares each subtask. Appends what was not used to `findings`, if given.
+std::vector<RunSkill> PrepareSkills(const SkillRun& run, core::Findings* findings = nullptr);
 
 // Prepares the run's subtasks in the scenes of other similar tasks, to evaluate skills on other
 // assets. Throws core::Error if those have a different number of subtasks.
-std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun& run);
+std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun& run,
+                                      core::Findings* findings = nullptr);
+
+// Returns the number of proved grasps that the skills may use, by asset that is grasped by them.
+std::map<std::string, int> GraspCounts(const std::vector<RunSkill>& skills);
 
 }  // namespace simwright::workflows

@@ -44,6 +44,7 @@ SkillRun RunOf(const TrainRequest& request) {
                         request.task_file.string());
   run.robot = request.robot;
   run.options.action = request.action;
+  run.proved_grasps = request.proved_grasps;
   run.options.episode_seconds = request.episode_seconds;
   run.options.finger_friction = request.finger_friction;
   run.environments = request.environments;
@@ -63,7 +64,8 @@ class TaskTraining {
     // An existing folder is locked before the slow steps; a new one is created only once all inputs
     // are valid.
     if (fs::exists(run_.folder)) lock_.emplace(run_.folder, "a training");
-    skills_ = PrepareSkills(run_);
+    skills_ = PrepareSkills(run_, &report_.findings);
+    report_.grasps = GraspCounts(skills_);
     if (!lock_) lock_.emplace(run_.folder, "a training");
     WriteRun(run_);
     report_.folder = run_.folder;
@@ -201,6 +203,9 @@ std::string TrainTable(const TrainReport& report) {
                   skill.tuning->kept ? "" : "; not kept");
     table += line;
   }
+  for (const auto& [asset, count] : report.grasps) {
+    table += asset + " is grasped by " + std::to_string(count) + " proved grasps\n";
+  }
   if (!report.chain.outcomes.empty()) {
     char line[128];
     std::snprintf(line, sizeof(line), "whole task: %d of %zu, %.0f %% (%.0f-%.0f)\n",
@@ -215,6 +220,7 @@ std::string TrainJson(const TrainReport& report) {
   core::Json text;
   text["folder"] = report.folder.string();
   text["success"] = report.success();
+  for (const auto& [asset, count] : report.grasps) text["proved_grasps"][asset] = count;
   for (const TrainedSkill& skill : report.skills) {
     core::Json one = {{"name", skill.name},
                       {"samples", skill.samples},

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct TrainRequest {
   std::filesystem::path output;
   std::string robot = "panda";
   skills::ActionSpace action = skills::ActionSpace::kTargetFrame;
+  bool proved_grasps = true;  // SkillRun::proved_grasps
   double episode_seconds = skills::SkillOptions().episode_seconds;
   // The friction of the fingers' surfaces, sampled per episode: from worn plastic to the rubber
   // tips of the Panda's URDF.
@@ -77,7 +79,9 @@ struct TrainedSkill {
 struct TrainReport {
   std::filesystem::path folder;
   std::vector<TrainedSkill> skills;
-  skills::ChainEvaluation chain;  // the whole task's; empty if it has one subtask
+  skills::ChainEvaluation chain;      // the whole task's; empty if it has one subtask
+  std::map<std::string, int> grasps;  // GraspCounts
+  core::Findings findings;            // about the assets
 
   double success() const;  // the whole task's rate
 };

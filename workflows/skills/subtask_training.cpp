@@ -112,7 +112,8 @@ rl::TrainingOptions OptionsFor(const TrainRequest& request, const SkillRun& run,
   options.metadata = {{"task", run.set.tasks.front().name},
                       {"subtask", skill.name},
                       {"robot", run.robot},
-                      {"action", skills::NameOf(run.options.action)}};
+                      {"action", skills::NameOf(run.options.action)},
+                      {"proved_grasps", run.proved_grasps ? "true" : "false"}};
   options.title = skill.name;
   return options;
 }

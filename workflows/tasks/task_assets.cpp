@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "tasks/task_names.h"
+#include "workflows/grasps/asset_grasps.h"
 
 namespace simwright::workflows {
 namespace {
@@ -61,6 +62,7 @@ TaskAssets ReadTaskAssets(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     for (const Located& located : Expanded(argument)) {
       assets::SemanticModel model = assets::ReadSemanticModel(located.path);
+      model.graspable = HasGraspOnSupport(located.path);
       if (!located.name.empty()) model.name = located.name;
       if (!tasks::IsAssetName(model.name)) {
         throw core::Error("programs cannot use the asset name '" + model.name + "'",
