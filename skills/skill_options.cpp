@@ -72,8 +72,9 @@ bool SkillOptions::IsValid(std::string* error) const {
     return fail("episode_seconds must be at least one decision long");
   }
   if (!(hold_seconds >= 0.0)) return fail("hold_seconds must not be negative");
-  if (contact_iterations < 1 || free_iterations < 1) {
-    return fail("contact_iterations and free_iterations must be positive");
+  if (contact_iterations < 1 || light_contact_iterations < 1 || free_iterations < 1) {
+    return fail(
+        "contact_iterations, light_contact_iterations and free_iterations must be positive");
   }
   if (!(standoff >= 0.0)) return fail("standoff must not be negative");
   if (!(reach > 0.0) || !(turn >= 0.0) || !(delta_share > 0.0)) {

@@ -16,10 +16,10 @@ constexpr double kStillSpeed = 2e-3;      // ... below this speed, m/s or rad/s
 constexpr double kSettling = 0.1;         // s more, in which the grasp takes the object's weight
 constexpr double kFarthestObject = 20.0;  // m from the robot: beyond, the physics has failed
 
-sim::WorldOptions WorldOptionsOf(const SkillOptions& options) {
+sim::WorldOptions WorldOptionsOf(const SkillOptions& options, int iterations) {
   sim::WorldOptions world;
   world.time_step = 1.0 / (options.control_rate * options.substeps);
-  world.solver_iterations = options.contact_iterations;
+  world.solver_iterations = iterations;
   return world;
 }
 
@@ -28,7 +28,8 @@ sim::WorldOptions WorldOptionsOf(const SkillOptions& options) {
 SkillWorld::SkillWorld(const Skill& skill, const StartState& start)
     : skill_(skill),
       variant_(skill.variants[static_cast<size_t>(start.variant)]),
-      world_(WorldOptionsOf(skill.options)),
+      contact_iterations_(ContactIterations(start)),
+      world_(WorldOptionsOf(skill.options, contact_iterations_)),
       bodies_(variant_.model.objects.size(), -1) {
   for (const int object : variant_.placed) {
     const auto t = static_cast<size_t>(object);
@@ -58,6 +59,18 @@ SkillWorld::SkillWorld(const Skill& skill, const StartState& start)
   }
 }
 
+int SkillWorld::ContactIterations(const StartState& start) const {
+  const SkillOptions& options = skill_.options;
+  for (const int object : variant_.placed) {
+    const auto t = static_cast<size_t>(object);
+    if (variant_.fixed[t]) continue;
+    if (start.mass[t] * variant_.model.objects[t].mass < options.light_mass) {
+      return options.light_contact_iterations;
+    }
+  }
+  return options.contact_iterations;
+}
+
 // The object is held in place while the gripper closes to `leader`, as if it stood on a support.
 void SkillWorld::CloseGripperOn(int object, double leader) {
   const int body = bodies_[static_cast<size_t>(object)];
@@ -84,8 +97,7 @@ void SkillWorld::CloseGripperOn(int object, double leader) {
 }
 
 void SkillWorld::Advance() {
-  world_.SetIterations(touching_ ? skill_.options.contact_iterations
-                                 : skill_.options.free_iterations);
+  world_.SetIterations(touching_ ? contact_iterations_ : skill_.options.free_iterations);
   for (int step = 0; step < skill_.options.substeps; ++step) {
     robot_->Drive();
     world_.Step();

@@ -29,11 +29,13 @@ class SkillWorld {
   bool touching() const { return touching_; }
 
  private:
+  int ContactIterations(const StartState& start) const;
   void CloseGripperOn(int object, double leader);
   void ReadContacts();
 
   const Skill& skill_;
   const SkillVariant& variant_;
+  int contact_iterations_;  // of the solver, while the robot is in contact
   sim::ArticulatedWorld world_;
   std::unique_ptr<sim::DrivenRobot> robot_;
   std::vector<int> bodies_;     // by object; -1: not in the world

@@ -73,6 +73,20 @@ TEST(Affordances, WhatHasNoHandleIsNotTakenByOne) {
   EXPECT_FALSE(CanBeLifted(heavy));
 }
 
+TEST(Affordances, ProvedGraspsDecideWhatCanBeLifted) {
+  ArticulatedObject pen = ThingOfParts("pen", 0.01, {Aabb({0, 0, 0.004}, {0.14, 0.008, 0.008})});
+  EXPECT_FALSE(CanBeLifted(pen));  // too low for a guess
+  pen.graspable = true;
+  EXPECT_TRUE(CanBeLifted(pen));
+  ArticulatedObject plate = ThingOfParts("plate", 0.4, {Aabb({0, 0, 0.009}, {0.07, 0.2, 0.018})});
+  EXPECT_TRUE(CanBeLifted(plate));
+  plate.graspable = false;
+  EXPECT_FALSE(CanBeLifted(plate));
+  EXPECT_NE(ExplainUnusable(plate).sentence.find("clears the plane"), std::string::npos);
+  pen.mass = 3.0;
+  EXPECT_FALSE(CanBeLifted(pen));  // heavier than the payload
+}
+
 TEST(Affordances, TheReasonOfNoUseIsSaidWithItsFigure) {
   const ArticulatedObject heavy = ThingOfParts("stone", 30.0, {Aabb({0, 0, 0.1}, {0.2, 0.2, 0.2})});
   EXPECT_NE(ExplainUnusable(heavy).sentence.find("30 kg"), std::string::npos);

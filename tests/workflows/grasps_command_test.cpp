@@ -4,10 +4,13 @@
 #include <filesystem>
 #include <string>
 
+#include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "manipulation/grasp_file.h"
 #include "program.h"
+#include "tasks/task_file.h"
+#include "workflows/skills/skill_run.h"
 
 namespace simwright::workflows {
 namespace {
@@ -25,6 +28,35 @@ void ExpectGraspError(const std::string& arguments, const std::string& says) {
   const Outcome outcome = RunProgram("grasps " + arguments);
   EXPECT_EQ(outcome.code, 1) << outcome.text;
   EXPECT_NE(outcome.text.find(says), std::string::npos) << outcome.text;
+}
+
+// Expects that a training of picking up the soap takes it by its 8 grasps unless told otherwise,
+// and not if they are another gripper's.
+void ExpectSkillsUseGrasps(const std::string& soap, const fs::path& folder) {
+  const std::string file = (folder / "tasks.json").string();
+  const Outcome made = RunProgram("tasks " + soap + " -o " + file);
+  ASSERT_EQ(made.code, 0) << made.text;
+  SkillRun run;
+  run.folder = folder / "run";
+  run.set = ChooseTasks(tasks::ReadTaskFile(file), {"pick_up_soap_1"}, file);
+  const std::map<std::string, int> expected = {{"soap_1", 8}};
+  EXPECT_EQ(GraspCounts(PrepareSkills(run)), expected);
+  WriteRun(run);
+  EXPECT_TRUE(ReadRun(run.folder).proved_grasps);
+  run.proved_grasps = false;
+  EXPECT_TRUE(GraspCounts(PrepareSkills(run)).empty());
+  EXPECT_THROW(WriteRun(run), core::Error);  // a run resumes with the settings that it began with
+  run.proved_grasps = true;
+  const fs::path grasps = fs::path(soap) / manipulation::kGraspFileName;
+  std::string text = core::ReadFile(grasps);
+  for (size_t at = 0; (at = text.find("panda_hand", at)) != std::string::npos; at += 10) {
+    text.replace(at, 10, "other_hand");
+  }
+  core::WriteFile(grasps, text);
+  core::Findings findings;
+  EXPECT_TRUE(GraspCounts(PrepareSkills(run, &findings)).empty());
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].code, "grasps-other-gripper");
 }
 
 TEST(GraspsCommand, WritesProvedGraspsAndPicksWithThem) {
@@ -50,7 +82,10 @@ TEST(GraspsCommand, WritesProvedGraspsAndPicksWithThem) {
   EXPECT_EQ(core::ReadFile(folder.path() / "own.png"), "a picture of mine");
   const Outcome picks = RunProgram("grasps " + soap + " --pick-test 2 --json", "/dev/null");
   ASSERT_EQ(picks.code, 0) << picks.text;
-  EXPECT_EQ(core::ParseJson(picks.text, "the picks")["picks"][0]["with_proved"], 2) << picks.text;
+  const core::Json row = core::ParseJson(picks.text, "the picks")["picks"][0];
+  EXPECT_EQ(row["with_proved"], 2) << picks.text;
+  EXPECT_GE(row["expert_proved"], 1) << picks.text;
+  ExpectSkillsUseGrasps(soap, folder.path());
 }
 
 TEST(GraspsCommand, SaysWhatItCannotGrasp) {
