@@ -24,6 +24,7 @@ def test_bad_settings():
                          (dict(cell="open_drawer", instances=2.5), "instances"),
                          (dict(**DRAWER, task="zz"), "no task 'zz'"),
                          (dict(**DRAWER, finger_friction=1.0), "finger_friction: is 1.0"),
+                         (dict(**DRAWER, proved_grasps=1), "proved_grasps: is 1"),
                          (dict(**DRAWER, cameras=3), "cameras"),
                          (dict(**DRAWER, cameras=[None]), "None"),
                          (dict(**DRAWER, images=["heat"]), "heat"),
