@@ -5,8 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "manipulation/reach_plan.h"
-
 namespace simwright::manipulation {
 namespace {
 

@@ -46,4 +46,10 @@ struct Interaction {
   bool starts_held = false;
 };
 
+// Returns true if the object is pushed to its destination instead of being grasped.
+inline bool Pushes(const Interaction& interaction) {
+  return interaction.target && interaction.target->joint < 0 && interaction.destination &&
+         !interaction.asks_for_grasp;
+}
+
 }  // namespace simwright::manipulation

@@ -329,11 +329,6 @@ std::optional<ReachPlan> PlanWithOrientations(const PlanningArm& context,
 
 }  // namespace
 
-bool Pushes(const Interaction& interaction) {
-  return interaction.target && interaction.target->joint < 0 && interaction.destination &&
-         !interaction.asks_for_grasp;
-}
-
 Isometry3d GraspPose(const Interaction& interaction, const tasks::WorldState& state,
                      const Vector3d& across, double pitch, int grasp) {
   const InteractionTarget& target = *interaction.target;

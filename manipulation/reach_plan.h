@@ -7,9 +7,6 @@
 
 namespace simwright::manipulation {
 
-// Returns true if the object is pushed to its destination instead of being grasped.
-bool Pushes(const Interaction& interaction);
-
 // Returns the grasp pose (world_from_tool) at the target, or the pushing pose behind the object as
 // seen from its destination. `across` (unit, world): the current closing axis, tool y, the line
 // from finger to finger; the gripper is symmetric under a half turn about its own axis and stays
