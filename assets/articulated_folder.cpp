@@ -186,7 +186,7 @@ ArticulatedAsset ReadArticulatedAsset(const fs::path& folder) {
   ArticulatedAsset asset;
   asset.name = root["name"].Text();
   if (FileSafeName(asset.name) != asset.name) {
-    throw core::Error("names no asset", document.file(), kAssetRemedy);
+    throw InvalidName(asset.name, document.file());
   }
   asset.source = root["source"].Text();
   asset.seed = root["seed"].Unsigned();

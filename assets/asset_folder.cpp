@@ -117,7 +117,7 @@ Asset ReadAsset(const std::filesystem::path& folder) {
   const core::JsonDocument document = ReadAssetJson(folder);
   Asset asset = AssetFrom(document.root(), document.file());
   if (FileSafeName(asset.name) != asset.name) {
-    throw core::Error("is not a valid asset description", document.file(), kAssetRemedy);
+    throw InvalidName(asset.name, document.file());
   }
   const int parts = document.root()["parts"]["count"].Int(0, kMaxParts);
   asset.visual = ReadMesh(folder / "visual.obj");

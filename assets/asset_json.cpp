@@ -81,6 +81,12 @@ OrderedJson ToJson(const physics_params::PhysicalParameters& p) {
   return json;
 }
 
+core::Error InvalidName(const std::string& name, const std::string& file) {
+  return core::Error(
+      "'name' is '" + name.substr(0, 80) + "', which cannot name the asset's files", file,
+      "use letters, digits, '_' and '-', as in '" + FileSafeName(name.substr(0, 80)) + "'");
+}
+
 core::JsonDocument ReadAssetJson(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "asset.json";
   core::JsonDocument document = core::JsonDocument::Read(file, kMaxAssetJsonBytes, kAssetRemedy);

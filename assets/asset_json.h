@@ -33,6 +33,9 @@ physics_params::PhysicalParameters ParametersFrom(const core::JsonField& field);
 
 // Ends messages about a damaged asset.json.
 constexpr const char* kAssetRemedy = "make the asset again";
+
+// Returns the error of an asset.json whose name cannot name the asset's files.
+core::Error InvalidName(const std::string& name, const std::string& file);
 constexpr std::uint64_t kMaxAssetJsonBytes = 16 << 20;
 constexpr int kMaxParts = 10000;  // collision parts of a body
 

@@ -62,13 +62,17 @@ void RequireSafeUrdfText(const std::string& text, const std::string& where) {
     throw core::Error("declares a DOCTYPE or entities, which a URDF does not need", where,
                       "remove the declaration");
   }
+  if (text.empty()) throw core::Error("the file is empty", where, "copy or download it again");
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw core::Error("this is not XML: line " + std::to_string(document.ErrorLineNum()), where,
                       "correct the file there");
   }
   const auto* robot = document.FirstChildElement("robot");
-  if (robot == nullptr) throw core::Error("this is not a URDF: it has no <robot>", where);
+  if (robot == nullptr) {
+    throw core::Error("this is not a URDF: it has no <robot>", where,
+                      "give a URDF, or the folder of an asset");
+  }
   RequireUrdfTree(*robot, where);
 }
 

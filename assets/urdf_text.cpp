@@ -80,6 +80,7 @@ class Mending {
     if (text.size() >= 2 && (text.substr(0, 2) == "\xff\xfe" || text.substr(0, 2) == "\xfe\xff")) {
       throw core::Error("is written in UTF-16", where, "save it as UTF-8");
     }
+    if (text.empty()) throw core::Error("the file is empty", where, "copy or download it again");
     const std::string body = WithoutDeclaration(text);
     if (document_.Parse(body.data(), body.size()) != tinyxml2::XML_SUCCESS) {
       throw core::Error("this is not XML: line " + std::to_string(document_.ErrorLineNum()), where,

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "assets/asset_folder.h"
+#include "assets/mesh_import.h"
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/usage.h"
@@ -31,6 +32,10 @@ void CheckInput(const std::filesystem::path& input, const CheckFlags& flags,
                 core::Progress* progress, Checked* checked) {
   if (!std::filesystem::exists(input)) throw core::Error("no such file or folder", input);
   if (!std::filesystem::is_directory(input)) {
+    if (assets::HasMeshExtension(input)) {
+      throw core::Error("is a mesh, not an asset or a URDF", input.string(),
+                        "import it first: simwright import " + input.string() + " -o out");
+    }
     checked->reports.push_back(validation::CheckUrdf(input, flags.root));
     return;
   }

@@ -9,10 +9,12 @@
 namespace simwright::cli {
 namespace {
 
-void PrintAddress(const std::string& url, const CommonOptions& common) {
+void PrintAddress(const std::string& url, const core::Findings& findings,
+                  const CommonOptions& common) {
   if (common.json) {
-    PrintJson(core::OrderedJson{{"url", url}}, {});
+    PrintJson(core::OrderedJson{{"url", url}}, findings);
   } else {
+    PrintFindings(findings, common);
     std::printf("%s  Ctrl-C ends it\n", url.c_str());
   }
   std::fflush(stdout);
@@ -20,7 +22,9 @@ void PrintAddress(const std::string& url, const CommonOptions& common) {
 
 int View(const viewer::ViewRequest& request, const CommonOptions& common) {
   if (request.html.empty()) {
-    viewer::ServeView(request, [&](const std::string& url) { PrintAddress(url, common); });
+    viewer::ServeView(request, [&](const std::string& url, const core::Findings& findings) {
+      PrintAddress(url, findings, common);
+    });
     return 0;
   }
   core::Progress progress(common.ProgressStyle());

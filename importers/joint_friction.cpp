@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "assets/joint_gravity_load.h"
@@ -48,6 +50,66 @@ double LeverOf(const ArticulatedAsset& asset, const std::vector<Eigen::Isometry3
   return lever;
 }
 
+std::string Shown(double value, const char* unit) {
+  char text[48];
+  std::snprintf(text, sizeof(text), "%.3g %s", value, unit);
+  return text;
+}
+
+// Collects what the file does not state of its joints.
+class Omissions {
+ public:
+  // Notes the values that replaced those of `file` that are not positive.
+  void Add(const Joint& file, const Joint& used) {
+    const bool slides = used.type == JointType::kPrismatic;
+    std::string values;
+    const auto note = [&](double before, double now, const char* name, const char* unit) {
+      if (before > 0.0) return;
+      values += (values.empty() ? "" : ", ") + std::string(name) + " " + Shown(now, unit);
+    };
+    note(file.friction, used.friction, "friction", slides ? "N" : "N m");
+    note(file.damping, used.damping, "damping", slides ? "N s/m" : "N m s/rad");
+    note(file.effort, used.effort, "effort", slides ? "N" : "N m");
+    note(file.velocity, used.velocity, "velocity", slides ? "m/s" : "rad/s");
+    if (!values.empty() && ++guessed_ <= kNamed) {
+      guesses_ += (guesses_.empty() ? "'" : "; '") + used.name + "': " + values;
+    }
+    if (file.friction > 0.0 && used.friction > file.friction && ++raised_ <= kNamed) {
+      const char* const unit = slides ? "N" : "N m";
+      raises_ += (raises_.empty() ? "'" : "; '") + used.name + "' from " +
+                 Shown(file.friction, unit) + " to " + Shown(used.friction, unit);
+    }
+  }
+
+  void Report(const std::string& asset, core::Findings* findings) const {
+    if (guessed_ > 0) {
+      findings->push_back({"joint-guessed", core::Severity::kWarning, asset,
+                           "the file does not state all of its joints' dynamics and limits, which "
+                           "were sampled or derived: " +
+                               guesses_ + More(guessed_),
+                           static_cast<double>(guessed_),
+                           "give each joint <dynamics damping friction> and <limit effort "
+                           "velocity>; asset.json has all values"});
+    }
+    if (raised_ > 0) {
+      findings->push_back(
+          {"joint-friction-raised", core::Severity::kWarning, asset,
+           "friction was raised so that the joint holds against gravity: " + raises_ +
+               More(raised_),
+           static_cast<double>(raised_), "state a friction above the joint's gravity load"});
+    }
+  }
+
+ private:
+  static constexpr int kNamed = 3;
+  static std::string More(int count) {
+    return count > kNamed ? "; and " + std::to_string(count - kNamed) + " more" : "";
+  }
+
+  int guessed_ = 0, raised_ = 0;
+  std::string guesses_, raises_;
+};
+
 }  // namespace
 
 double GreatestLoad(const ArticulatedAsset& asset, size_t joint) {
@@ -68,9 +130,11 @@ void AssignJointFriction(core::Rng& rng, ArticulatedAsset* asset) {
       model->LinkPoses(std::vector<double>(asset->joints.size(), 0.0));
   double mass = 0.0;
   for (const assets::ArticulatedLink& link : asset->links) mass += link.inertial.mass;
+  Omissions omissions;
   for (size_t i = 0; i < asset->joints.size(); ++i) {
     Joint& joint = asset->joints[i];
     if (!joint.Moves()) continue;
+    const Joint stated = joint;
     const double lever = LeverOf(*asset, poses, model->parents(), i);
     library::JointResistance feel = library::SampleJointResistance(rng, lever);
     const double most = kWeightShare * mass * kGravity * lever;
@@ -84,7 +148,9 @@ void AssignJointFriction(core::Rng& rng, ArticulatedAsset* asset) {
     joint.friction = std::max(joint.friction, kHoldFactor * load);
     if (!(joint.effort > 0.0)) joint.effort = 4.0 * (joint.friction + load);
     if (!(joint.velocity > 0.0)) joint.velocity = 5.0 * RangeOf(joint);
+    omissions.Add(stated, joint);
   }
+  omissions.Report(asset->name, &asset->findings);
 }
 
 }  // namespace simwright::importers

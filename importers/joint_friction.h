@@ -16,6 +16,7 @@ double GreatestLoad(const assets::ArticulatedAsset& asset, size_t joint);
 // tenth of the whole asset's weight there so that a free-standing asset is not pulled over; damping
 // is proportional. Friction of every joint is then raised to at least 1.3 times its greatest
 // gravity load; effort and velocity limits follow where the file gives none (docs/formats.md).
+// Findings "joint-guessed" and "joint-friction-raised" name the joints and their values.
 void AssignJointFriction(core::Rng& rng, assets::ArticulatedAsset* asset);
 
 }  // namespace simwright::importers

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <unordered_set>
 
 namespace simwright::manipulation {
 namespace {
@@ -29,7 +29,12 @@ void AddSurface(const core::TriangleMesh& mesh, const Isometry3d& tool_from_link
 
 // Returns one of the points in each cube of side `spacing`: meshes of round shapes are much finer.
 std::vector<Vector3d> Thinned(const std::vector<Vector3d>& points, double spacing) {
-  std::set<std::array<int, 3>> cubes;
+  const auto hash = [](const std::array<int, 3>& cube) {
+    size_t sum = 0;
+    for (const int index : cube) sum = (sum + static_cast<size_t>(index)) * 0x9e3779b97f4a7c15u;
+    return sum ^ (sum >> 32);
+  };
+  std::unordered_set<std::array<int, 3>, decltype(hash)> cubes(points.size(), hash);
   std::vector<Vector3d> thinned;
   for (const Vector3d& point : points) {
     const Eigen::Vector3i cube = (point / spacing).array().floor().cast<int>();

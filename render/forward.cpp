@@ -23,31 +23,46 @@ class Shader {
     reach_ = box.isEmpty() ? 0.0f : options.occlusion_reach * box.diagonal().norm();
   }
 
+  // The last albedo that was made linear: neighbouring hits often have the same.
+  struct LastAlbedo {
+    Eigen::Vector3f srgb = Eigen::Vector3f::Zero(), linear = Eigen::Vector3f::Zero();
+  };
+
   // Returns the linear RGB of a hit at `point`, whose shading normal faces the camera.
   Eigen::Vector3f Color(const Hit& hit, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
-                        std::uint32_t seed) const {
-    const Eigen::Vector4f albedo = scene_.Albedo(hit);
-    Eigen::Vector3f color;
-    for (int c = 0; c < 3; ++c) color[c] = LinearFromSrgb(albedo[c]);
+                        size_t pixel, int sample, LastAlbedo* last) const {
+    const Eigen::Vector3f albedo = scene_.Albedo(hit).head<3>();
+    if (albedo != last->srgb) {
+      last->srgb = albedo;
+      for (int c = 0; c < 3; ++c) last->linear[c] = LinearFromSrgb(albedo[c]);
+    }
+    Eigen::Vector3f color = last->linear;
     if (!options_.lit) return color;
     color = color.cwiseProduct(options_.light.Shade(normal));
-    if (options_.occlusion_rays > 0) color *= Openness(point, normal, seed);
+    if (options_.occlusion_rays > 0) color *= Openness(point, normal, pixel, sample);
     return color;
   }
 
  private:
   // Returns the share of cosine-weighted directions that are not occluded within reach.
-  float Openness(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
-                 std::uint32_t seed) const {
+  float Openness(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, size_t pixel,
+                 int sample) const {
+    // Samples that share their directions take every n-th one.
+    const int n = options_.samples_per_side * options_.samples_per_side;
+    const int stride = options_.occlusion_per_pixel ? n : 1;
+    const int first = options_.occlusion_per_pixel ? sample : 0;
+    const int all = stride * options_.occlusion_rays;
+    const size_t seed =
+        pixel * 64 + (options_.occlusion_per_pixel ? 0 : static_cast<size_t>(sample));
     const Eigen::Vector3f tangent = normal.unitOrthogonal();
     const Eigen::Vector3f bitangent = normal.cross(tangent);
-    const float turn = static_cast<float>(MixedVertices(seed)) * 0x1.0p-32f;
+    const float turn =
+        static_cast<float>(MixedVertices(static_cast<std::uint32_t>(seed))) * 0x1.0p-32f;
     const Eigen::Vector3f start = point + 1e-3f * reach_ * normal;
     int open = 0;
-    for (int i = 0; i < options_.occlusion_rays; ++i) {
+    for (int i = first; i < all; i += stride) {
       // A Fibonacci disc, rotated by a hash of the pixel and lifted to the hemisphere (Malley).
-      const float radius =
-          std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(options_.occlusion_rays));
+      const float radius = std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(all));
       const float angle = 6.2831853f * (turn + 0.618034f * static_cast<float>(i));
       const Eigen::Vector3f direction =
           radius * (std::cos(angle) * tangent + std::sin(angle) * bitangent) +
@@ -81,7 +96,8 @@ class RowRenderer {
     if (options_.samples_per_side == 1) {
       DrawSingleRays(y);
     } else {
-      for (int x = 0; x < buffers_.width; ++x) DrawPixel(x, y);
+      Shader::LastAlbedo albedo;
+      for (int x = 0; x < buffers_.width; ++x) DrawPixel(x, y, &albedo);
     }
   }
 
@@ -119,6 +135,7 @@ class RowRenderer {
     const Eigen::Vector3f start = RowStart(y + 0.5);
     Eigen::Vector3f rays[kRayBundle];
     Hit hits[kRayBundle];
+    Shader::LastAlbedo albedo;
     for (int first = 0; first < buffers_.width; first += kRayBundle) {
       const int count = std::min(kRayBundle, buffers_.width - first);
       for (int k = 0; k < count; ++k) {
@@ -133,14 +150,13 @@ class RowRenderer {
         buffers_.mask[at] = 1.0f;
         if (!options_.shaded) continue;
         const Eigen::Vector3f point = origin_ + hits[k].depth * rays[k];
-        const auto seed = static_cast<std::uint32_t>(at * 64);
-        Store(shader_.Color(hits[k], point, normal, seed), at, first + k, y);
+        Store(shader_.Color(hits[k], point, normal, at, 0, &albedo), at, first + k, y);
       }
     }
   }
 
   // The samples of a pixel, in rows, are traced in bundles.
-  void DrawPixel(int x, int y) const {
+  void DrawPixel(int x, int y, Shader::LastAlbedo* albedo) const {
     const int n = options_.samples_per_side;
     const size_t at = buffers_.Index(x, y);
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
@@ -164,8 +180,8 @@ class RowRenderer {
         const Eigen::Vector3f normal = FacingNormal(hit, rays[k]);
         if (representative) Keep(hit, normal, at);
         if (!options_.shaded) continue;
-        const auto seed = static_cast<std::uint32_t>(at * 64 + static_cast<size_t>(first + k));
-        sum += shader_.Color(hit, origin_ + hit.depth * rays[k], normal, seed);
+        const Eigen::Vector3f point = origin_ + hit.depth * rays[k];
+        sum += shader_.Color(hit, point, normal, at, first + k, albedo);
       }
     }
     buffers_.mask[at] = static_cast<float>(covered) / static_cast<float>(n * n);

@@ -16,7 +16,10 @@ struct ForwardOptions {
   // If false, `color` holds the albedo itself.
   bool lit = true;
   SphericalHarmonicsLight light = SphericalHarmonicsLight::Studio({0.4f, -0.5f, 0.75f});
-  int occlusion_rays = 0;         // ambient occlusion rays per hit; 0: none. Previews use 8
+  int occlusion_rays = 0;  // ambient occlusion rays per hit; 0: none
+  // Spreads the occlusion rays of a pixel's samples over the hemisphere together, so that two or
+  // three a sample suffice; false: those of each sample by themselves.
+  bool occlusion_per_pixel = false;
   float occlusion_reach = 0.25f;  // share of the scene's diagonal within which geometry occludes
   bool cancellable = false;       // Ctrl-C ends the image with core::Cancelled
 };

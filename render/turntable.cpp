@@ -20,7 +20,10 @@ std::vector<core::Image> Turntable(const core::TexturedMesh& mesh,
   ForwardOptions forward;
   forward.samples_per_side = options.samples_per_side;
   forward.shaded = true;
-  forward.occlusion_rays = 8;
+  // At least 18 rays a pixel, over all its samples.
+  const int samples = options.samples_per_side * options.samples_per_side;
+  forward.occlusion_rays = (18 + samples - 1) / samples;
+  forward.occlusion_per_pixel = true;
   std::vector<core::Image> images;
   for (int i = 0; i < options.views; ++i) {
     const double azimuth = options.first_azimuth + 2.0 * std::numbers::pi * i / options.views;

@@ -1,9 +1,11 @@
 #include "sim/mujoco_scene.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
 #include <optional>
+#include <string_view>
 
 #include <mujoco/mujoco.h>
 #include <unistd.h>
@@ -73,6 +75,20 @@ class SceneFile {
   fs::path path_;
 };
 
+// Returns the error of a file that MuJoCo cannot load, in one line.
+core::Error LoadingError(std::string message, const std::string& file) {
+  constexpr std::string_view kLine = "Line number=";
+  const size_t line = message.find(kLine);
+  if (message.find("XML parse error") != std::string::npos && line != std::string::npos) {
+    const int number = std::atoi(message.c_str() + line + kLine.size());
+    return core::Error("is not whole XML: line " + std::to_string(number), file,
+                       "it was cut off or edited: make it again, or correct it there");
+  }
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  message.erase(message.find_last_not_of(' ') + 1);
+  return core::Error(message, file);
+}
+
 }  // namespace
 
 MujocoScene::MujocoScene(const fs::path& mjcf, const std::vector<double>& balls, Ground ground,
@@ -89,7 +105,7 @@ MujocoScene::MujocoScene(const fs::path& mjcf, const std::vector<double>& balls,
     const WarningScope scope(&warnings_);
     model_ = mj_loadXML(file.c_str(), nullptr, message, sizeof(message));
   }
-  if (model_ == nullptr) throw core::Error(message, mjcf.string());
+  if (model_ == nullptr) throw LoadingError(message, mjcf.string());
   if (message[0] != '\0') warnings_.emplace_back(message);
   data_ = mj_makeData(model_);
 }

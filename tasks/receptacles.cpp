@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <queue>
 
 namespace simwright::tasks {
 namespace {
@@ -11,6 +10,7 @@ namespace {
 constexpr int kResolution = 40;
 constexpr int kShieldedSides = 5;
 constexpr double kMinSideDepth = 0.08;  // m; a shallower niche, as of a window, holds no object
+constexpr double kReachFactor = 1.01;   // of a cell's radius: allows for rounding
 constexpr double kMaxSize = 1000.0;     // m; a larger link has no receptacles for the gripper
 
 using Cell = Eigen::Vector3i;
@@ -24,6 +24,16 @@ struct HalfSpaces {
     if (!box.contains(point)) return false;
     for (const Eigen::Vector4d& plane : planes) {
       if (plane.head<3>().dot(point) > plane[3]) return false;
+    }
+    return true;
+  }
+
+  // Returns false where no point of a box can be inside, as far as one plane tells.
+  bool Reaches(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const {
+    const Eigen::Vector3d center = 0.5 * (low + high);
+    const double radius = 0.5 * (high - low).norm();
+    for (const Eigen::Vector4d& plane : planes) {
+      if (plane.head<3>().dot(center) > plane[3] + kReachFactor * radius) return false;
     }
     return true;
   }
@@ -74,20 +84,55 @@ class Grid {
   // bounds, so a wall thinner than a cell fills the cells it crosses.
   void Fill(const core::TriangleMesh& part) {
     const HalfSpaces spaces = SpacesOf(part);
-    const Eigen::Vector3d extent = spaces.box.sizes();
-    Eigen::Array3i count = (extent / (cell_ / 3.0)).array().ceil().cast<int>();
-    count = count.max(1);
-    const Eigen::Vector3d step = extent.array() / count.cast<double>();
-    for (int k = 0; k < count.z(); ++k) {
-      for (int j = 0; j < count.y(); ++j) {
-        for (int i = 0; i < count.x(); ++i) {
-          const Eigen::Vector3d point =
-              spaces.box.min() + Eigen::Vector3d((Eigen::Array3d(i, j, k) + 0.5) * step.array());
-          const Cell c = ((point - origin_) / cell_).array().floor().cast<int>();
-          if (Inside(c) && !Full(c) && spaces.Contains(point)) full_[Index(c)] = 1;
+    std::array<std::vector<double>, 3> samples;  // coordinates, by axis
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = spaces.box.min()[axis], extent = spaces.box.sizes()[axis];
+      const int count = std::max(1, static_cast<int>(std::ceil(extent / (cell_ / 3.0))));
+      const double step = extent / count;
+      for (int i = 0; i < count; ++i) samples[axis].push_back(low + (i + 0.5) * step);
+    }
+    const std::array<std::vector<Span>, 3> spans = {SpansOf(samples[0], 0), SpansOf(samples[1], 1),
+                                                    SpansOf(samples[2], 2)};
+    for (const Span& z : spans[2]) {
+      for (const Span& y : spans[1]) {
+        for (const Span& x : spans[0]) {
+          const Cell c(x.cell, y.cell, z.cell);
+          if (!Inside(c) || Full(c) || !spaces.Reaches(Corner(c), Corner(c + Cell::Ones()))) {
+            continue;
+          }
+          full_[Index(c)] = AnyInside(spaces, samples, x, y, z);
         }
       }
     }
+  }
+
+  // Samples `begin` to `end` - 1 along an axis, which lie in one layer of cells.
+  struct Span {
+    int cell, begin, end;
+  };
+  std::vector<Span> SpansOf(const std::vector<double>& samples, int axis) const {
+    std::vector<Span> spans;
+    for (int i = 0; i < static_cast<int>(samples.size()); ++i) {
+      const auto at = static_cast<size_t>(i);
+      const int cell = static_cast<int>(std::floor((samples[at] - origin_[axis]) / cell_));
+      if (spans.empty() || spans.back().cell != cell) spans.push_back({cell, i, i});
+      spans.back().end = i + 1;
+    }
+    return spans;
+  }
+
+  static bool AnyInside(const HalfSpaces& spaces, const std::array<std::vector<double>, 3>& samples,
+                        const Span& x, const Span& y, const Span& z) {
+    for (int k = z.begin; k < z.end; ++k) {
+      for (int j = y.begin; j < y.end; ++j) {
+        for (int i = x.begin; i < x.end; ++i) {
+          const auto at = [](int index) { return static_cast<std::size_t>(index); };
+          if (spaces.Contains({samples[0][at(i)], samples[1][at(j)], samples[2][at(k)]}))
+            return true;
+        }
+      }
+    }
+    return false;
   }
 
   double cell_ = 0.0;

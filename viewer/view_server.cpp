@@ -1,9 +1,13 @@
 #include "viewer/view_server.h"
 
+#include <netinet/in.h>
+#include <sys/socket.h>
+
 #include <atomic>
 #include <charconv>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -51,6 +55,19 @@ bool IsThisComputer(const std::string& host) {
   return false;
 }
 
+// Ends the server's connections at `port`. The library's threads wait for seconds for the next
+// request of each, which a stopped server does not answer.
+void EndConnections(int port) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", none)) {
+    const auto file = static_cast<int>(NumberOf(entry.path().filename().string()));
+    sockaddr_in own{};
+    socklen_t size = sizeof own;
+    if (::getsockname(file, reinterpret_cast<sockaddr*>(&own), &size) != 0) continue;
+    if (own.sin_family == AF_INET && ntohs(own.sin_port) == port) ::shutdown(file, SHUT_RDWR);
+  }
+}
+
 void Refuse(int status, const std::string& what, httplib::Response* response) {
   response->status = status;
   response->set_content(Text({{"error", what}}), kJson);
@@ -80,7 +97,7 @@ struct ViewServer::Server {
   void AddFiles();
   void AddManifest();
   void AddNumbered();
-  void Protect();
+  void Protect(int idle_seconds);
 
   LiveContent live;
   httplib::Server http;
@@ -159,10 +176,10 @@ void ViewServer::Server::AddNumbered() {
            });
 }
 
-void ViewServer::Server::Protect() {
+void ViewServer::Server::Protect(int idle_seconds) {
   http.set_payload_max_length(kLargestBody);
   http.set_keep_alive_max_count(200);
-  http.set_keep_alive_timeout(2);
+  http.set_keep_alive_timeout(idle_seconds);
   http.set_read_timeout(5);
   http.set_write_timeout(30);
   http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };  // httplib deletes it
@@ -193,9 +210,9 @@ void ViewServer::Server::Protect() {
   });
 }
 
-ViewServer::ViewServer(ContentSource source, int port)
+ViewServer::ViewServer(ContentSource source, int port, int idle_seconds)
     : server_(std::make_unique<Server>(std::move(source))) {
-  server_->Protect();
+  server_->Protect(idle_seconds);
   server_->AddFiles();
   server_->AddManifest();
   server_->AddNumbered();
@@ -238,6 +255,10 @@ void ViewServer::Run() {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   server_->http.stop();
+  while (!ended) {
+    EndConnections(port_);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
   listener.join();
 }
 

@@ -14,7 +14,8 @@ class ViewServer {
  public:
   // Reads the content and binds the port; 0: a free one. Throws core::Error if the content cannot
   // be read, or another program has the port.
-  ViewServer(ContentSource source, int port);
+  // A connection is ended after `idle_seconds` without a request.
+  ViewServer(ContentSource source, int port, int idle_seconds = 2);
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;

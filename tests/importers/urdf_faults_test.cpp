@@ -97,6 +97,43 @@ TEST_F(UrdfFaults, OverlapAtTheHingeIsExcludedAndSaid) {
   EXPECT_TRUE(Import(SunkDoor(-0.004)).excluded_pairs.empty());
 }
 
+TEST_F(UrdfFaults, JointsWithoutDynamicsAreSaidWithTheirValues) {
+  const ArticulatedAsset asset = Import(SunkDoor(-0.004));
+  ASSERT_EQ(Count(asset.findings, "joint-guessed"), 1);
+  EXPECT_EQ(Figure(asset.findings, "joint-guessed"), 1.0);
+  EXPECT_EQ(Count(asset.findings, "joint-friction-raised"), 0);
+  const auto said = std::find_if(asset.findings.begin(), asset.findings.end(),
+                                 [](const auto& f) { return f.code == "joint-guessed"; });
+  char friction[48], velocity[48];
+  std::snprintf(friction, sizeof friction, "'door_joint': friction %.3g N m, damping",
+                asset.joints[0].friction);
+  std::snprintf(velocity, sizeof velocity, "velocity %.3g rad/s", asset.joints[0].velocity);
+  EXPECT_NE(said->sentence.find(friction), std::string::npos) << said->sentence;
+  EXPECT_NE(said->sentence.find(velocity), std::string::npos) << said->sentence;
+  EXPECT_NE(said->remedy.find("<dynamics"), std::string::npos);
+}
+
+TEST_F(UrdfFaults, StatedDynamicsAreKeptOrTheirRaiseIsSaid) {
+  const auto with = [](const std::string& friction, const std::string& axis) {
+    std::string urdf = SunkDoor(-0.004);
+    const std::string limit = "<limit lower='0' upper='1.5'/>", z = "<axis xyz='0 0 1'/>";
+    urdf.replace(urdf.find(limit), limit.size(),
+                 "<dynamics damping='0.1' friction='" + friction +
+                     "'/><limit lower='0' upper='1.5' effort='9' velocity='2'/>");
+    urdf.replace(urdf.find(z), z.size(), "<axis xyz='" + axis + "'/>");
+    return urdf;
+  };
+  const ArticulatedAsset stated = Import(with("0.4", "0 0 1"));
+  EXPECT_EQ(Count(stated.findings, "joint-guessed"), 0);
+  EXPECT_EQ(Count(stated.findings, "joint-friction-raised"), 0);
+  EXPECT_EQ(stated.joints[0].friction, 0.4);
+  EXPECT_EQ(stated.joints[0].effort, 9.0);
+  // The flap lies on a level hinge: the file's friction does not hold it.
+  const ArticulatedAsset raised = Import(with("0.001", "1 0 0"));
+  EXPECT_EQ(Count(raised.findings, "joint-friction-raised"), 1);
+  EXPECT_GT(raised.joints[0].friction, 0.001);
+}
+
 // In both engines the excluded pair has no contact, and all other contacts remain.
 TEST_F(UrdfFaults, EnginesHeedTheExclusion) {
   const ArticulatedAsset asset = Pass(SunkDoor(0.012));

@@ -12,7 +12,7 @@ LONG = """
 import sys, simwright as sw
 print("ready", flush=True)
 try:
-    sw.scenes.generate("dimsum", sys.argv[1], count=100000, progress=False)
+    sw.scenes.generate("dimsum", sys.argv[1], count=100000, assets=sys.argv[2], progress=False)
 except KeyboardInterrupt:
     print("stopped", flush=True)
 # Work after the interruption goes on as usual.
@@ -21,9 +21,10 @@ print(sw.physics.sample("mug")["category"], len(sw.assets.library("apple", sys.a
 """
 
 
-def test_ctrl_c_stops_a_long_call(tmp_path):
-    child = subprocess.Popen([sys.executable, "-c", LONG, str(tmp_path / "out")], text=True,
-                             stdout=subprocess.PIPE, env=dict(os.environ))
+def test_ctrl_c_stops_a_long_call(tmp_path, dimsum_assets):
+    child = subprocess.Popen([sys.executable, "-c", LONG, str(tmp_path / "out"),
+                              str(dimsum_assets)],
+                             text=True, stdout=subprocess.PIPE, env=dict(os.environ))
     assert child.stdout.readline().strip() == "ready"
     time.sleep(3.0)
     start = time.monotonic()
@@ -40,7 +41,8 @@ ended = []
 
 def work(name, count):
     try:
-        sw.scenes.generate("dimsum", f"{sys.argv[1]}_{name}", count=count, progress=False)
+        sw.scenes.generate("dimsum", f"{sys.argv[1]}_{name}", count=count, assets=sys.argv[2],
+                           progress=False)
         ended.append(f"{name} done")
     except KeyboardInterrupt:
         ended.append(f"{name} stopped")
@@ -62,9 +64,10 @@ print(", ".join(ended), flush=True)
 """
 
 
-def test_ctrl_c_stops_the_call_that_outlives_another(tmp_path):
-    child = subprocess.Popen([sys.executable, "-c", TWO, str(tmp_path / "out")], text=True,
-                             stdout=subprocess.PIPE, env=dict(os.environ))
+def test_ctrl_c_stops_the_call_that_outlives_another(tmp_path, dimsum_assets):
+    child = subprocess.Popen([sys.executable, "-c", TWO, str(tmp_path / "out"),
+                              str(dimsum_assets)],
+                             text=True, stdout=subprocess.PIPE, env=dict(os.environ))
     assert child.stdout.readline().strip() == "ready"
     time.sleep(0.5)
     child.send_signal(signal.SIGINT)

@@ -7,9 +7,9 @@ import simwright as sw
 
 
 @pytest.fixture(scope="module")
-def dimsum(tmp_path_factory):
+def dimsum(tmp_path_factory, dimsum_assets):
     folder = tmp_path_factory.mktemp("scenes") / "dimsum"
-    report = sw.scenes.generate("dimsum", folder, count=3, seed=2)
+    report = sw.scenes.generate("dimsum", folder, count=3, seed=2, assets=dimsum_assets)
     return folder, report
 
 
@@ -44,8 +44,9 @@ def test_apples_that_overlap_are_pushed_apart(mugs):
     assert sw.scenes.total_penetration(settled["objects"], assets) < 1e-3
 
 
-def test_samples_of_a_shipped_model(tmp_path):
-    report = sw.scenes.sample(tmp_path / "tables", type="dimsum", count=2, steps=20)
+def test_samples_of_a_shipped_model(tmp_path, dimsum_assets):
+    report = sw.scenes.sample(tmp_path / "tables", type="dimsum", count=2, steps=20,
+                              assets=dimsum_assets)
     assert len(sw.scenes.read(tmp_path / "tables")) == report["scenes"]
     worlds = sw.scenes.export(tmp_path / "tables", tmp_path / "worlds", formats=["mjcf"])
     assert len(worlds["scenes"]) == report["scenes"]

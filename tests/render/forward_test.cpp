@@ -141,6 +141,50 @@ TEST(Forward, ThreadsDoNotChangeThePicture) {
   EXPECT_EQ(one.depth, three.depth);
 }
 
+// Cosine-weighted directions from a floor: an endless wall at its edge covers half of them, which
+// needs all directions of a pixel to be spread evenly.
+TEST(Forward, OcclusionRaysOfAPixelAreSpreadTogether) {
+  core::TexturedMesh corner = ForwardSquare(1.0, 0.0);
+  const int first = static_cast<int>(corner.mesh.vertices.size());
+  for (const double y : {-500.0, 500.0}) {
+    for (const double z : {0.0, 500.0}) corner.mesh.vertices.emplace_back(0.5, y, z);
+  }
+  for (const Eigen::Vector3i& t : {Eigen::Vector3i(0, 1, 2), Eigen::Vector3i(2, 1, 3)}) {
+    corner.mesh.triangles.push_back(t + Eigen::Vector3i::Constant(first));
+  }
+  corner.triangle_material.resize(corner.mesh.triangles.size(), 0);
+  corner.corner_uvs.clear();
+  corner.textures.clear();
+  corner.materials.assign(1, {"white", Eigen::Vector4f::Ones(), -1});
+  Scene scene;
+  scene.Add(&corner);
+  scene.Commit();
+  ForwardOptions options;
+  options.shaded = true;
+  options.light = SphericalHarmonicsLight::Uniform(1.0f);
+  options.samples_per_side = 3;
+  options.occlusion_rays = 2;
+  options.occlusion_reach = 0.9f;
+  const auto error_of = [&](bool per_pixel) {
+    options.occlusion_per_pixel = per_pixel;
+    const ForwardBuffers buffers = RenderForward(scene, ForwardFromAbove(2.0, 40, 40.0), options);
+    double sum = 0.0, square = 0.0;
+    int count = 0;
+    for (int y = 14; y < 26; ++y) {
+      for (int x = 25; x < 29; ++x, ++count) {
+        const double error = LinearFromSrgb(buffers.color.At(x, y)[0] / 255.0f) - 0.5;
+        sum += error;
+        square += error * error;
+      }
+    }
+    EXPECT_NEAR(sum / count, 0.0, 0.03) << per_pixel;
+    return std::sqrt(square / count);
+  };
+  const double apart = error_of(false), together = error_of(true);
+  EXPECT_LT(together, 0.05);
+  EXPECT_LT(together, 0.6 * apart);
+}
+
 TEST(Light, IrradianceOfAClampedCosineLobe) {
   // Uniform radiance L gives irradiance pi L: over pi, L.
   const SphericalHarmonicsLight uniform = SphericalHarmonicsLight::Uniform(0.7f);

@@ -72,6 +72,45 @@ TEST(DropReplay, RefusesInvalidInput) {
   EXPECT_THROW(DropReplay({{"box", &body}}, options), core::Error);
 }
 
+core::Findings OwnFindingsOf(const fs::path& path, const fs::path& page) {
+  ViewRequest request;
+  request.path = path;
+  request.html = page;
+  core::Progress silent;
+  return WriteView(request, &silent).findings;
+}
+
+TEST(ViewAsset, AnOpenSolidIsSaid) {
+  const core::TemporaryFolder folder;
+  assets::Asset asset = assets::SampleAsset();
+  const fs::path closed = folder.path() / "closed", open = folder.path() / "open";
+  fs::create_directories(closed);
+  assets::WriteAsset(asset, closed);
+  EXPECT_TRUE(OwnFindingsOf(closed, folder.path() / "closed.html").empty());
+  asset.solid.triangles.pop_back();
+  fs::create_directories(open);
+  assets::WriteAsset(asset, open);
+  const core::Findings said = OwnFindingsOf(open, folder.path() / "open.html");
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].code, "view-solid-open");
+  EXPECT_EQ(said[0].figure, 3.0) << "the edges of one triangle";
+  EXPECT_NE(core::ReadFile(folder.path() / "open.html").find("view-solid-open"), std::string::npos);
+  const Outcome told =
+      RunProgram("view " + open.string() + " --html " + (folder.path() / "told.html").string());
+  EXPECT_EQ(told.code, 0) << told.text;
+  EXPECT_NE(told.text.find("[view-solid-open]"), std::string::npos) << told.text;
+}
+
+TEST(ViewFolder, WithNothingToShowIsOneLine) {
+  const core::TemporaryFolder folder;
+  core::WriteFile(folder.path() / "notes.txt", "nothing");
+  const Outcome refused = RunProgram("view " + folder.path().string());
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_EQ(refused.text, "error: " + folder.path().string() +
+                              ": holds nothing that the viewer shows (give a folder of assets, "
+                              "scenes, tasks, a training or a run, or one with a URDF)\n");
+}
+
 class ViewScenes : public testing::Test {
  protected:
   void SetUp() override {

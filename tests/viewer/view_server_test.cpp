@@ -130,6 +130,18 @@ TEST_F(Server, AnswersAThousandRequestsAtOnce) {
   EXPECT_EQ(good, 1000);
 }
 
+// The server would wait for ten minutes for another request, longer than the test may take.
+TEST_F(Server, EndsWithAConnectionThatIsIdle) {
+  ViewServer server(SourceOf(folder_.path()), 0, 600);
+  std::thread running([&] { server.Run(); });
+  httplib::Client client("127.0.0.1", server.port());
+  client.set_keep_alive(true);
+  ASSERT_EQ(client.Get("/version")->status, 200);
+  server.Stop();
+  running.join();
+  EXPECT_FALSE(client.Get("/version")) << "it still answers";
+}
+
 TEST_F(Server, RefusesAPortThatIsTaken) {
   try {
     ViewServer second(SourceOf(folder_.path()), server_->port());

@@ -13,7 +13,7 @@
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
 #include "scene/scene_types/scene_types.h"
-#include "workflows/scenes/scene_assets.h"
+#include "shared_scene_assets.h"
 
 namespace simwright::workflows {
 namespace {
@@ -45,8 +45,7 @@ void WriteDraws(const fs::path& folder) {
   }
   fs::create_directories(folder);
   WriteShard(part, folder / scene::ShardName(0));
-  core::Progress progress;
-  GatherSceneAssets({vocabulary.categories, {}, {}, folder / "assets"}, &progress);
+  PlaceSceneAssets("dimsum", folder);
 }
 
 class SceneEvaluate : public testing::Test {

@@ -12,6 +12,7 @@
 #include "program.h"
 #include "running_program.h"
 #include "scene/model/scene_model.h"
+#include "shared_scene_assets.h"
 
 namespace simwright::workflows {
 namespace {
@@ -28,6 +29,7 @@ class ScenePosttrainCommand : public testing::Test {
 
   static void SetUpTestSuite() {
     folder_ = new core::TemporaryFolder();
+    PlaceSceneAssets("dimsum", Data());
     generated_ = RunProgram("scene generate --type dimsum --raw --count 24 --quiet -o " + Data());
     trained_ = RunProgram("scene train " + Data() +
                           " --method continuous --steps 2 --batch 2 --quiet -o " + At("model"));

@@ -13,6 +13,7 @@
 #include "running_program.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
+#include "shared_scene_assets.h"
 
 namespace simwright::workflows {
 namespace {
@@ -31,6 +32,7 @@ class SceneSearchCommand : public testing::Test {
 
   static void SetUpTestSuite() {
     folder_ = new core::TemporaryFolder();
+    PlaceSceneAssets("dimsum", Dimsum());
     generated_ = RunProgram("scene generate --type dimsum --count 1 --seed 1000000023 --quiet -o " +
                             Dimsum());
   }
@@ -90,7 +92,9 @@ void SceneSearchCommand::ResumesBitByBit() {
 }
 
 void SceneSearchCommand::StartsFromAScene() {
-  const Outcome made = RunProgram(Search("--iterations 1 --start " + Dimsum(), "fuller"));
+  // A full table: each child costs seconds of physics.
+  const Outcome made =
+      RunProgram(Search("--iterations 1 --branching 1 --start " + Dimsum(), "fuller"));
   ASSERT_EQ(made.code, 0) << made.text;
   const json report = SearchReportIn(At("fuller"));
   const scene::SceneDataset dataset{fs::path(Dimsum())};

@@ -14,6 +14,7 @@
 #include "running_program.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/tokens.h"
+#include "shared_scene_assets.h"
 
 namespace simwright::workflows {
 namespace {
@@ -36,6 +37,7 @@ class SceneSteeringCommand : public testing::Test {
 
   static void SetUpTestSuite() {
     folder_ = new core::TemporaryFolder();
+    PlaceSceneAssets("dimsum", Dimsum());
     generated_ = RunProgram("scene generate --type dimsum --count 2 --seed 1000000021 --quiet -o " +
                             Dimsum());
   }

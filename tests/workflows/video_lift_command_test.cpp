@@ -27,8 +27,9 @@ void WriteSpiral(const fs::path& path, const Eigen::Vector3d& sides) {
   constexpr int kShots = 60;
   capture::MatPhotoOptions options;
   options.lens = capture::PhoneLens(800, 600, 65.0 / 360.0 * kTurn);
-  std::vector<Eigen::Isometry3d> poses;
+  std::vector<Eigen::Isometry3d> poses;  // of the sharp frames
   for (int i = 0; i < kShots; ++i) {
+    if (i % 3 == 1) continue;
     const double share = static_cast<double>(i) / kShots;
     poses.push_back(core::OrbitCamera({0.0, 0.0, 0.03}, 0.42, (15.0 + 45.0 * share) / 360.0 * kTurn,
                                       2.0 * kTurn * share, 1.0, 800, 600)
@@ -38,11 +39,14 @@ void WriteSpiral(const fs::path& path, const Eigen::Vector3d& sides) {
                          cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0, {800, 600});
   const auto photos =
       capture::RenderMatPhotos(capture::PlainBox(sides, {0.85f, 0.6f, 0.2f}), poses, options);
-  for (std::size_t i = 0; i < photos.size(); ++i) {
-    core::Image photo = photos[i].photo;
+  std::size_t next = 0;
+  for (int i = 0; i < kShots; ++i) {
+    // Every third frame is blurred: it is the frame before it, out of focus.
+    const bool blurred = i % 3 == 1;
+    core::Image photo = photos[blurred ? next - 1 : next++].photo;
     cv::Mat frame(photo.height, photo.width, CV_8UC3, photo.pixels.data());
     cv::cvtColor(frame, frame, cv::COLOR_RGB2BGR);
-    if (i % 3 == 1) cv::GaussianBlur(frame, frame, {}, 3.0);
+    if (blurred) cv::GaussianBlur(frame, frame, {}, 3.0);
     writer.write(frame);
   }
 }

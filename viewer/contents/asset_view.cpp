@@ -11,6 +11,7 @@
 #include "assets/semantic_model.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "geometry/mesh_validity.h"
 #include "viewer/contents/drop_replay.h"
 #include "viewer/grasp_file.h"
 #include "viewer/model_document.h"
@@ -50,9 +51,21 @@ void AddGrasps(const fs::path& folder, OrderedJson* model, DocumentBuilder* buil
   }
 }
 
+// Warns of a solid that is not closed: its mass, inertia and grasps mean nothing.
+void ReportOpenSolid(const assets::Asset& asset, DocumentBuilder* builder) {
+  const int open = geometry::Examine(asset.solid, 0).open_edges;
+  if (open == 0) return;
+  AddFinding({"view-solid-open", core::Severity::kWarning, asset.name,
+              "its solid.obj is open: " + std::to_string(open) +
+                  " edges have one face, so its mass, inertia and grasps cannot be relied on",
+              static_cast<double>(open), "make the asset again"},
+             builder);
+}
+
 OrderedJson RigidModel(const assets::Asset& asset, const fs::path& folder,
                        DocumentBuilder* builder) {
   OrderedJson model = ModelOf(asset, builder);
+  ReportOpenSolid(asset, builder);
   AddGrasps(folder, &model, builder);
   return model;
 }

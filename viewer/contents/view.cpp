@@ -11,6 +11,19 @@
 #include "viewer/view_server.h"
 
 namespace simwright::viewer {
+namespace {
+
+// Returns what the viewer itself has to say; the findings of assets are on the page.
+core::Findings OwnFindings(const Content& content) {
+  const core::OrderedJson& all = content.document().manifest["findings"];
+  if (!all.is_array()) return {};
+  const core::JsonDocument document(core::JsonText(all), "the page", "");
+  core::Findings own = core::FindingsFrom(document.root());
+  std::erase_if(own, [](const auto& finding) { return !finding.code.starts_with("view-"); });
+  return own;
+}
+
+}  // namespace
 
 ViewReport WriteView(const ViewRequest& request, core::Progress* progress) {
   if (std::filesystem::exists(request.html) && !request.force) {
@@ -26,6 +39,7 @@ ViewReport WriteView(const ViewRequest& request, core::Progress* progress) {
   report.file = request.html;
   const core::OrderedJson& manifest = content->document().manifest;
   report.kind = manifest["kind"].get<std::string>();
+  report.findings = OwnFindings(*content);
   SingleFileOptions options;
   options.worlds = request.most;
   const std::string page = SingleFilePage(content.get(), options, progress, &report.findings);
@@ -36,9 +50,9 @@ ViewReport WriteView(const ViewRequest& request, core::Progress* progress) {
 }
 
 void ServeView(const ViewRequest& request,
-               const std::function<void(const std::string& url)>& started) {
+               const std::function<void(const std::string& url, const core::Findings&)>& started) {
   ViewServer server(ViewSource(request.path), request.port);
-  started(server.url());
+  started(server.url(), OwnFindings(server.first_content()));
   server.Run();
 }
 

@@ -32,11 +32,11 @@ struct ViewReport {
 // a path that cannot be shown, and for content that is damaged or too large.
 ViewReport WriteView(const ViewRequest& request, core::Progress* progress);
 
-// Serves the page until Ctrl-C; calls `started` with its address. The content is read again when
-// files below the path have changed. Throws core::Error as WriteView does, and for a port that is
-// not free.
+// Serves the page until Ctrl-C; calls `started` with its address and the viewer's findings. The
+// content is read again when files below the path have changed. Throws core::Error as WriteView
+// does, and for a port that is not free.
 void ServeView(const ViewRequest& request,
-               const std::function<void(const std::string& url)>& started);
+               const std::function<void(const std::string& url, const core::Findings&)>& started);
 
 std::string ViewTable(const ViewReport& report);
 std::string ViewJson(const ViewReport& report);

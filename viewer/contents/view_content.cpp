@@ -5,6 +5,7 @@
 
 #include "assets/asset_folder.h"
 #include "assets/mesh_import.h"
+#include "assets/semantic_model.h"
 #include "core/error.h"
 #include "core/json.h"
 #include "viewer/contents/asset_view.h"
@@ -70,7 +71,12 @@ std::unique_ptr<Content> ReadFolderView(const fs::path& folder) {
   if (fs::exists(folder / "scene.json")) return ReadScenesView({folder}, name);
   if (fs::exists(folder / "tasks.json")) return ReadTasksView(folder / "tasks.json");
   if (AnyEntry(folder, assets::IsAssetFolder)) return ReadAssetsView(folder);
-  return ReadAssetView(folder);  // a folder with a URDF, or an error that says what it lacks
+  if (assets::FilesBelow(folder, ".urdf").empty() && assets::FilesBelow(folder, ".xacro").empty()) {
+    throw core::Error("holds nothing that the viewer shows", folder.string(),
+                      "give a folder of assets, scenes, tasks, a training or a run, or one with a "
+                      "URDF");
+  }
+  return ReadAssetView(folder);
 }
 
 bool ChangesByItself(const std::string& name) {

@@ -47,6 +47,10 @@ void ExportArticulated(const AssetExportRequest& request, AssetExportReport* rep
 }  // namespace
 
 AssetExportReport ExportAsset(const AssetExportRequest& request) {
+  if (std::filesystem::is_regular_file(request.asset)) {
+    throw core::Error("is a file, not the folder of an asset", request.asset.string(),
+                      "import it first: simwright import " + request.asset.string() + " -o out");
+  }
   if (!assets::IsAssetFolder(request.asset)) {
     throw core::Error("holds no asset.json", request.asset.string(),
                       "give a folder made by `simwright lift`, `import` or `library`");
