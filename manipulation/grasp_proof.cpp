@@ -36,6 +36,7 @@ std::string KindOf(const std::string& reason) {
     if (!kind.empty() && kind.back() == ' ') kind.pop_back();
     --i;
   }
+  if (kind.ends_with(':')) kind.pop_back();
   return kind;
 }
 
