@@ -55,9 +55,9 @@ class GraspProver {
         seed_(seed),
         trial_(WithFriction(options.trial, friction)),
         perturbed_(trial_),
-        bullet_(sim::GraspEngine::kBullet, gripper, object.body,
-                WithMargin(trial_, options.margin_share)),
-        mujoco_(sim::GraspEngine::kMujoco, gripper, object.body, trial_) {
+        bullet_(TrialsOf(sim::GraspEngine::kBullet, gripper, object,
+                         WithMargin(trial_, options.margin_share))),
+        mujoco_(TrialsOf(sim::GraspEngine::kMujoco, gripper, object, trial_)) {
     perturbed_.shake = false;
     perturbed_.hold_time = options.perturbed_hold_time;
   }
@@ -80,6 +80,13 @@ class GraspProver {
   }
 
  private:
+  static sim::GraspTrials TrialsOf(sim::GraspEngine engine, const sim::GripperModel& gripper,
+                                   const GraspObject& object,
+                                   const sim::GraspTrialOptions& options) {
+    if (object.part) return sim::GraspTrials(engine, gripper, *object.part, options);
+    return sim::GraspTrials(engine, gripper, object.body, options);
+  }
+
   static sim::GraspTrialOptions WithFriction(sim::GraspTrialOptions trial, double friction) {
     trial.friction = friction;
     return trial;
@@ -173,6 +180,19 @@ bool GraspProofOptions::IsValid(std::string* error) const {
   return sampler.IsValid(error) && trial.IsValid(error);
 }
 
+std::string ProvedGrasps::WhyNone(const sim::GripperModel& gripper) const {
+  if (!grasps.empty()) return "";
+  if (sampling.grasps.empty()) return sampling.WhyNone(gripper);
+  std::string most = held_in_bullet > 0 ? "some hold in Bullet alone" : "none held";
+  int count = 0;
+  for (const auto& [reason, times] : failures) {
+    if (held_in_bullet > 0 || times <= count) continue;
+    count = times;
+    most = "most often: " + reason;
+  }
+  return "none of " + std::to_string(tried) + " candidates holds in both engines; " + most;
+}
+
 double ProvedGrasps::EngineAgreement() const {
   return held_in_bullet > 0 ? static_cast<double>(held_in_both) / held_in_bullet : 0.0;
 }
@@ -184,10 +204,11 @@ ProvedGrasps ProveGrasps(const GraspObject& object, const sim::GripperModel& gri
   if (!options.IsValid(&error)) throw core::Error("grasps: " + error);
   ProvedGrasps result;
   result.friction = object.friction * gripper.friction;
-  RequireLiftable(object, gripper, result.friction, options.trial.gravity);
+  if (!object.part) RequireLiftable(object, gripper, result.friction, options.trial.gravity);
   core::Rng rng = core::StreamRng(seed, kSamplerStream);
   result.sampling = SampleAntipodalGrasps(object, gripper, options.sampler, rng);
   if (result.sampling.grasps.empty()) {
+    if (object.part) return result;
     throw core::Error("no grasp: " + result.sampling.WhyNone(gripper), object.name,
                       "use another gripper");
   }

@@ -30,6 +30,10 @@ struct GraspRigObject {
   std::vector<bool> held;  // by link: rigidly joined to `link`
   std::vector<double> positions;  // rad or m, by joint, at the start
   double moved_mass = 0.0;        // kg
+  // kg m^2 or kg, added to what the joint moves, in MuJoCo alone: its integrator takes a joint's
+  // damping b implicitly, but its solver does not, so that contact friction accelerates an inertia
+  // I << b dt too little, and a light knob lags behind the fingers.
+  double added_inertia = 0.0;
 };
 
 // The state at the start of a trial. All velocities are zero, and there is no gravity.

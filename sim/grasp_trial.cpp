@@ -25,12 +25,26 @@ constexpr double kStartPenetration = 1e-3;  // m of the open gripper in the obje
 constexpr double kReleaseTime = 0.6;        // s
 constexpr double kReleaseFall = 0.05;       // m relative to the palm
 constexpr double kTrialInFloor = 1e-3;      // m
-constexpr double kMostYield = 0.02;         // m that an arm yields to a finger that touches first
+// An arm yields along the closing axis to a finger that touches a part alone: by so much (m) in
+// all, as fast as the fingers while they close, and by so much (m/s) later.
+constexpr double kMostYield = 0.02;
+constexpr double kYieldSpeed = 0.01;
+constexpr double kAddedLoad = 0.05;
 
 std::string Formatted(const char* format, double value) {
   char text[200];
   std::snprintf(text, sizeof(text), format, value);
   return text;
+}
+
+// Returns an inertia (kg m^2 or kg) whose acceleration takes kAddedLoad of the friction and damping
+// that resist the motion of a joint: negligible, and far above damping times a time step.
+double NegligibleInertia(const GraspedPart& part, const GraspTrialOptions& options) {
+  const assets::Joint& joint = part.body.joints()[static_cast<size_t>(part.joint)];
+  const double rate = std::numbers::pi / options.joint_time;  // 1/s, of the cosine profile
+  const double half = 0.5 * options.joint_travel * std::abs(part.far - part.rest);
+  const double resistance = joint.friction + joint.damping * rate * half;
+  return kAddedLoad * resistance / (rate * rate * half);
 }
 
 // One trial.
@@ -87,7 +101,7 @@ class TrialRun {
       if (steps_ * rig_.time_step() > kCloseTime) {
         return Fail("the fingers do not come to rest on it");
       }
-      rig_.MovePalm(home_);
+      rig_.MovePalm(Yielding(home_));
       rig_.DriveFingers(true);
       Step();
       const GraspContacts contacts = rig_.Contacts();
@@ -95,7 +109,7 @@ class TrialRun {
         return Fail("the open gripper is in it");
       }
       for (size_t i = 0; i < 2; ++i) touched[i] = touched[i] || contacts.fingers[i];
-      if (part_ != nullptr) Yield(contacts.fingers);
+      Yield(contacts.fingers, options_.finger_speed);
       if (steps_ % window != 0) continue;
       const std::array<double, 2> now = rig_.FingerPositions();
       if (std::min(now[0], now[1]) > stroke_ - 1e-4) return Fail("the fingers close beside it");
@@ -104,12 +118,12 @@ class TrialRun {
       last = now;
       touched = {false, false};
     }
-    tool_ = home_;
     rig_.SetGravity(options_.gravity);
     for (double time = 0.0; time < kPressTime; time += rig_.time_step()) {
-      rig_.MovePalm(home_);
+      rig_.MovePalm(Yielding(home_));
       rig_.DriveFingers(true);
       Step();
+      Yield(rig_.Contacts().fingers, kYieldSpeed);
     }
     result_.closing = SlipSince(start);
     result_.closed = true;
@@ -119,14 +133,16 @@ class TrialRun {
     return true;
   }
 
-  // Moves the palm along the closing axis so that a finger that alone touches the part stands still
-  // while the other one closes: an arm yields to it, and a part on a fixed base does not.
-  void Yield(const std::array<bool, 2>& fingers) {
-    if (fingers[0] == fingers[1]) return;
-    const double shift = (fingers[0] ? 1.0 : -1.0) * options_.finger_speed * rig_.time_step();
-    if (std::abs(yielded_ + shift) > kMostYield) return;
-    yielded_ += shift;
-    home_.translation() += shift * tool_axes().col(1);
+  // Moves the palm along the closing axis away from a finger that alone touches the part, so that
+  // the other one closes: an arm yields, and a part on a fixed base does not. `speed`: m/s.
+  void Yield(const std::array<bool, 2>& fingers, double speed) {
+    if (part_ == nullptr || fingers[0] == fingers[1]) return;
+    const double shift = (fingers[0] ? 1.0 : -1.0) * speed * rig_.time_step();
+    if (std::abs(yielded_ + shift) <= kMostYield) yielded_ += shift;
+  }
+
+  Isometry3d Yielding(const Isometry3d& tool) const {
+    return tool * Eigen::Translation3d(0.0, yielded_, 0.0);
   }
 
   // Moves the palm from where it is along `offset(share)`, which is identity at 0, in `duration`
@@ -148,9 +164,10 @@ class TrialRun {
     const int steps = std::max(1, static_cast<int>(std::lround(duration / rig_.time_step())));
     for (int i = 1; i <= steps; ++i) {
       tool_ = pose(static_cast<double>(i) / steps);
-      rig_.MovePalm(tool_);
+      rig_.MovePalm(Yielding(tool_));
       rig_.DriveFingers(true);
       Step();
+      Yield(rig_.Contacts().fingers, kYieldSpeed);
       if (!Check(phase, largest)) return false;
     }
     return true;
@@ -321,7 +338,9 @@ GraspTrials::GraspTrials(GraspEngine engine, const GripperModel& gripper, const 
 GraspTrials::GraspTrials(GraspEngine engine, const GripperModel& gripper, const GraspedPart& part,
                          const GraspTrialOptions& options)
     : stroke_(0.5 * gripper.max_opening), options_(options), part_(part) {
-  Prepare(engine, gripper, GraspRigObject(part));
+  GraspRigObject object(part);
+  object.added_inertia = NegligibleInertia(part, options);
+  Prepare(engine, gripper, object);
 }
 
 GraspTrials::~GraspTrials() = default;

@@ -67,6 +67,11 @@ class GraspModel {
       model.dof_armature[model.jnt_dofadr[joints_[i]]] = kFingerArmature;
     }
     for (int i = 0; i < 6; ++i) model.dof_armature[Dof(palm_) + i] = kPalmArmature;
+    if (object.joint >= 0) {
+      const int joint =
+          Find(mjOBJ_JOINT, MjcfName("joint", kObjectBody, static_cast<size_t>(object.joint)));
+      model.dof_armature[model.jnt_dofadr[joint]] += object.added_inertia;
+    }
     SetContacts(options.friction, gripper.torsion, &model);
     mj_setConst(&model, scene_.data());
   }
