@@ -23,7 +23,7 @@ struct JointProof {
   double friction = 0.0;    // of the pair of link and finger
   int tried = 0, held_in_bullet = 0, held_in_both = 0;
   double coverage = 0.0;
-  std::string reason;  // why there are no grasps, if so
+  std::string reason = {};  // why there are no grasps, if so
 };
 
 // The proved grasps of an object by a gripper: the content of grasps.json (docs/grasps.md).

@@ -17,6 +17,10 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kBatch = 16;  // candidates between two looks at the number of proved grasps
+// Knobs with sloping sides have few grasps at the sampler's angle: with fewer candidates than this,
+// a part is sampled again with closing axes up to this angle (rad) from the normals.
+constexpr size_t kFewCandidates = 50;
+constexpr double kWideAngle = 0.45;
 constexpr std::uint64_t kSamplerStream = 0, kFirstPerturbationStream = 1;
 
 // Returns a reason without its figures: "slipped in the lift".
@@ -161,6 +165,18 @@ std::vector<int> TrialOrder(const std::vector<Grasp>& candidates, int count) {
   return order;
 }
 
+GraspSampling SampleCandidates(const GraspObject& object, const sim::GripperModel& gripper,
+                               GraspSamplerOptions options, std::uint64_t seed) {
+  core::Rng rng = core::StreamRng(seed, kSamplerStream);
+  GraspSampling sampling = SampleAntipodalGrasps(object, gripper, options, rng);
+  if (!object.part || sampling.grasps.size() >= kFewCandidates ||
+      options.largest_angle >= kWideAngle) {
+    return sampling;
+  }
+  options.largest_angle = kWideAngle;
+  return SampleAntipodalGrasps(object, gripper, options, rng);
+}
+
 }  // namespace
 
 bool GraspProofOptions::IsValid(std::string* error) const {
@@ -205,8 +221,7 @@ ProvedGrasps ProveGrasps(const GraspObject& object, const sim::GripperModel& gri
   ProvedGrasps result;
   result.friction = object.friction * gripper.friction;
   if (!object.part) RequireLiftable(object, gripper, result.friction, options.trial.gravity);
-  core::Rng rng = core::StreamRng(seed, kSamplerStream);
-  result.sampling = SampleAntipodalGrasps(object, gripper, options.sampler, rng);
+  result.sampling = SampleCandidates(object, gripper, options.sampler, seed);
   if (result.sampling.grasps.empty()) {
     if (object.part) return result;
     throw core::Error("no grasp: " + result.sampling.WhyNone(gripper), object.name,
