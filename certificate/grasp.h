@@ -27,6 +27,7 @@ struct GraspOptions {
   int approaches = 24;             // approach directions about each closing axis
   double finger_clearance = 0.01;  // m that each finger opens beyond the contact, if it can
   double least_clearance = 0.002;  // m that it must open beyond it
+  bool proved_alone = false;       // a body with proved grasps gets no sampled ones beside them
   double largest_angle = 0.35;     // rad between closing axis and normals, within the friction cone
 
   bool IsValid(std::string* error) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include "manipulation/grasp_ranking.h"
 
@@ -61,13 +62,17 @@ std::vector<size_t> OrderGrasps(const std::vector<Grasp>& grasps, const PlacedBo
   }
   std::stable_sort(free.begin(), free.end(),
                    [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
-  // The n-th best of each direction come before the n+1-th best of any.
-  std::map<std::pair<int, int>, int> used;
-  std::vector<std::pair<int, size_t>> order;
-  for (size_t k = 0; k < free.size(); ++k) order.emplace_back(used[free[k].bin]++, k);
+  // Proved grasps come first. The n-th best of each direction come before the n+1-th best of any.
+  std::map<std::tuple<bool, int, int>, int> used;
+  std::vector<std::tuple<bool, int, size_t>> order;
+  for (size_t k = 0; k < free.size(); ++k) {
+    const bool sampled = !(grasps[free[k].index].quality > 0.0);
+    const auto& [pitch, yaw] = free[k].bin;
+    order.emplace_back(sampled, used[{sampled, pitch, yaw}]++, k);
+  }
   std::stable_sort(order.begin(), order.end());
   std::vector<size_t> indices;
-  for (const auto& [round, k] : order) indices.push_back(free[k].index);
+  for (const auto& [sampled, round, k] : order) indices.push_back(free[k].index);
   return indices;
 }
 

@@ -38,9 +38,9 @@ const std::vector<Grasp>& Planner::GraspsOf(const std::shared_ptr<const BodyMode
   }
   std::call_once(entry->once, [&] {
     entry->grasps = ProvedGraspsOf(*body, robot_);
-    if (entry->grasps.empty()) {
-      entry->grasps = SampleGrasps(*body, robot_, seed_, grasp_options_);
-    }
+    if (!entry->grasps.empty() && grasp_options_.proved_alone) return;
+    const std::vector<Grasp> sampled = SampleGrasps(*body, robot_, seed_, grasp_options_);
+    entry->grasps.insert(entry->grasps.end(), sampled.begin(), sampled.end());
   });
   return entry->grasps;
 }

@@ -25,8 +25,7 @@ class Planner {
   const robot::RobotModel& robot() const { return robot_; }
   const RobotShapes& shapes() const { return shapes_; }
   const std::shared_ptr<const sim::PreparedBody>& physics() const { return physics_; }
-  // Returns the grasps of a body: the proved ones, or, if it has none, sampled ones, which are
-  // computed once.
+  // Returns the grasps of a body: the proved ones, then sampled ones, which are computed once.
   const std::vector<Grasp>& GraspsOf(const std::shared_ptr<const BodyModel>& body) const;
 
   // Returns the configuration near `start` (J) that brings the tool to a pose in the robot's frame;

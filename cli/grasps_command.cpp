@@ -51,16 +51,21 @@ void AddGrasps(CLI::App* app, CommonOptions* common, Run* run) {
   command->footer(
       "Examples:\n  simwright grasps mug -o mug_grasps.json\n"
       "  simwright grasps library/*_1 --count 50\n"
+      "  simwright grasps library/cabinet_1 --count 60\n"
       "  simwright grasps mug --gripper robotiq.urdf --format isaac -o mug.yaml\n"
       "Each grasp closes, lifts by 20 cm, is shaken and holds for 2 s, in Bullet and in MuJoCo, at "
-      "the low end of the object's friction. A picture is written beside the file. The exit code "
+      "the low end of the object's friction. A grasp at the handle of an articulated asset moves "
+      "its "
+      "joint over 80 % of the range instead. A picture is written beside the file. The exit code "
       "is 1 if an asset has no grasp.");
-  command->add_option("assets", request->assets, "Folders of rigid assets")->required();
+  command->add_option("assets", request->assets, "Folders of assets, rigid or articulated")
+      ->required();
   command
       ->add_option("--gripper", request->gripper,
                    "panda, or the URDF of a gripper with two sliding fingers")
       ->capture_default_str();
-  command->add_option("--count", request->count, "Proved grasps per asset, at most")
+  command
+      ->add_option("--count", request->count, "Proved grasps per asset, at most; joints share them")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command

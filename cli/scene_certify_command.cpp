@@ -82,6 +82,11 @@ void AddSceneCertify(CLI::App* scene, CommonOptions* common, Run* run) {
       ->add_option("--assets", request.assets,
                    "The folder of the categories' assets, if not the scene's")
       ->default_str("the scene's");
+  command
+      ->add_option("--grasps", request.grasps,
+                   "The folder with NAME/grasps.json or NAME.json for each asset folder NAME (see "
+                   "`simwright grasps`), or none: the planner samples all grasps")
+      ->default_str("grasps.json in the assets' folders");
   AddCommon(command, common);
   AddForce(command, common);
   command->callback([flags, common, run] { *run = [=] { return Certify(*flags, *common); }; });

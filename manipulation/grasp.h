@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,11 +9,13 @@
 #include <Eigen/Geometry>
 
 #include "core/mesh.h"
+#include "sim/grasped_part.h"
 #include "sim/rigid_body.h"
 
 namespace simwright::manipulation {
 
-// An antipodal grasp of a rigid object by a gripper with two parallel fingers.
+// An antipodal grasp of a rigid object, or of a link of an articulated one, by a gripper with two
+// parallel fingers. The object's frame is the link's.
 struct Grasp {
   // The tool frame before the fingers close: its origin lies in the middle between the fingertips,
   // z points along the approach, y from finger to finger.
@@ -22,10 +25,13 @@ struct Grasp {
   // The contacts of the fingers at -y and +y with the outward normals of the surface, object frame.
   std::array<Eigen::Vector3d, 2> contacts = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   std::array<Eigen::Vector3d, 2> normals = {-Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitY()};
-  // True if the gripper also clears the plane z = 0 of the object's frame, on which it stands.
+  // True if the gripper also clears the plane z = 0 on which the object stands.
   bool clears_support = false;
   // The share of trials from perturbed poses in which the object was held; 0 before the proof.
   double quality = 0.0;
+  // The names of the link, in whose frame the grasp is, and of the joint that it moves; empty for a
+  // rigid object.
+  std::string link = {}, joint = {};
 
   Eigen::Vector3d Approach() const { return object_from_tool.linear().col(2); }
   Eigen::Vector3d Center() const { return 0.5 * (contacts[0] + contacts[1]); }
@@ -39,6 +45,13 @@ struct GraspObject {
   // The lowest friction coefficient of its surface against wood or plastic; that of fingers and
   // surface is the product with GripperModel::friction.
   double friction = 0.5;
+  // Convex parts around it: the gripper clears the first at the grasp and on its approach, and the
+  // others at the grasp alone.
+  std::vector<core::TriangleMesh> obstacles = {}, passed = {};
+  // The pose of the object in the frame of its support, the plane z = 0.
+  Eigen::Isometry3d support_from_object = Eigen::Isometry3d::Identity();
+  // The link of an articulated body that the object is; none: it is a free rigid body.
+  std::optional<sim::GraspedPart> part = std::nullopt;
 };
 
 // Returns the angle (rad) between two grasp orientations. A gripper is symmetric under a half turn

@@ -1,7 +1,10 @@
 #include "manipulation/grasp_file.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "core/error.h"
@@ -62,31 +65,165 @@ core::OrderedJson GraspArrays(const GraspSet& set) {
     contacts.push_back({VectorJson(grasp.contacts[0]), VectorJson(grasp.contacts[1])});
     normals.push_back({VectorJson(grasp.normals[0]), VectorJson(grasp.normals[1])});
   }
-  return {{"transforms", transforms}, {"object_in_gripper", held}, {"quality", quality},
-          {"tool_transforms", tools}, {"width_m", widths},         {"opening_m", openings},
-          {"contacts_m", contacts},   {"normals", normals},        {"clears_support", clears}};
+  core::OrderedJson arrays = {
+      {"transforms", transforms}, {"object_in_gripper", held}, {"quality", quality},
+      {"tool_transforms", tools}, {"width_m", widths},         {"opening_m", openings},
+      {"contacts_m", contacts},   {"normals", normals},        {"clears_support", clears}};
+  if (GraspedLinks(set).empty()) return arrays;
+  for (const Grasp& grasp : set.grasps) {
+    arrays["link"].push_back(grasp.link);
+    arrays["joint"].push_back(grasp.joint);
+  }
+  return arrays;
+}
+
+core::OrderedJson JointProofsJson(const GraspSet& set) {
+  core::OrderedJson json = core::OrderedJson::array();
+  for (const JointProof& proof : set.joint_proofs) {
+    core::OrderedJson one = {{"joint", proof.joint},
+                             {"link", proof.link},
+                             {"grasps", proof.grasps},
+                             {"friction", proof.friction},
+                             {"tried", proof.tried},
+                             {"held_in_bullet", proof.held_in_bullet},
+                             {"held_in_both", proof.held_in_both},
+                             {"coverage", proof.coverage}};
+    if (!proof.reason.empty()) one["reason"] = proof.reason;
+    json.push_back(one);
+  }
+  return json;
+}
+
+JointProof JointProofFrom(const core::JsonField& field) {
+  JointProof proof;
+  proof.joint = field["joint"].Name();
+  proof.link = field["link"].Name();
+  proof.grasps = field["grasps"].Int(0);
+  proof.friction = field["friction"].NumberWithin(0.0);
+  proof.tried = field["tried"].Int(0);
+  proof.held_in_bullet = field["held_in_bullet"].Int(0);
+  proof.held_in_both = field["held_in_both"].Int(0);
+  proof.coverage = field["coverage"].NumberWithin(0.0, 1.0);
+  proof.reason = field.TextOr("reason", "");
+  return proof;
+}
+
+// Returns a set without grasps.
+GraspSet SetOf(const std::string& object, const std::string& file, const ParallelGripper& gripper) {
+  GraspSet set;
+  set.object = object;
+  set.mesh = file;
+  set.gripper = gripper.model.name;
+  set.base_link = gripper.base_link;
+  set.tool_from_base = gripper.tool_from_base;
+  set.max_opening = gripper.model.max_opening;
+  set.force = gripper.model.force;
+  set.joints = gripper.joints;
+  return set;
+}
+
+std::vector<Grasp> GraspsFrom(const core::JsonField& grasps) {
+  const std::vector<core::JsonField> tools = grasps["tool_transforms"].Elements();
+  const std::vector<double> quality = grasps["quality"].Numbers(tools.size());
+  const std::vector<double> widths = grasps["width_m"].Numbers(tools.size());
+  const std::vector<double> openings = grasps["opening_m"].Numbers(tools.size());
+  const std::vector<core::JsonField> contacts = grasps["contacts_m"].Elements(tools.size());
+  const std::vector<core::JsonField> normals = grasps["normals"].Elements(tools.size());
+  const std::vector<core::JsonField> clears = grasps["clears_support"].Elements(tools.size());
+  std::vector<core::JsonField> links, joints;
+  const bool articulated = grasps.Has("link") || grasps.Has("joint");
+  if (articulated) {
+    links = grasps["link"].Elements(tools.size());
+    joints = grasps["joint"].Elements(tools.size());
+  }
+  std::vector<Grasp> all;
+  for (size_t i = 0; i < tools.size(); ++i) {
+    Grasp grasp;
+    grasp.clears_support = clears[i].Flag();
+    grasp.object_from_tool = PoseFrom(tools[i]);
+    grasp.quality = quality[i];
+    grasp.width = widths[i];
+    if (articulated) {
+      grasp.link = links[i].Name();
+      grasp.joint = joints[i].Name();
+    }
+    grasp.opening = openings[i];
+    const std::vector<core::JsonField> points = contacts[i].Elements(2);
+    const std::vector<core::JsonField> outward = normals[i].Elements(2);
+    for (size_t c = 0; c < 2; ++c) {
+      grasp.contacts[c] = points[c].Vector<3>();
+      grasp.normals[c] = outward[c].Vector<3>();
+    }
+    all.push_back(std::move(grasp));
+  }
+  return all;
 }
 
 }  // namespace
 
 GraspSet MakeGraspSet(const GraspObject& object, const std::string& mesh,
                       const ParallelGripper& gripper, const ProvedGrasps& proved) {
-  GraspSet set;
-  set.object = object.name;
-  set.mesh = mesh;
-  set.gripper = gripper.model.name;
-  set.base_link = gripper.base_link;
-  set.tool_from_base = gripper.tool_from_base;
-  set.max_opening = gripper.model.max_opening;
-  set.force = gripper.model.force;
+  GraspSet set = SetOf(object.name, mesh, gripper);
   set.friction = proved.friction;
-  set.joints = gripper.joints;
   set.grasps = proved.grasps;
   set.tried = proved.tried;
   set.held_in_bullet = proved.held_in_bullet;
   set.held_in_both = proved.held_in_both;
   set.coverage = proved.coverage;
   return set;
+}
+
+GraspSet MakeGraspSet(const std::string& name, const std::string& urdf,
+                      const ParallelGripper& gripper, const std::vector<Handle>& handles,
+                      const std::vector<ProvedGrasps>& proofs) {
+  GraspSet set = SetOf(name, urdf, gripper);
+  double candidates = 0.0, covered = 0.0;
+  for (size_t i = 0; i < handles.size(); ++i) {
+    const ProvedGrasps& proved = proofs[i];
+    JointProof proof{.joint = handles[i].joint,
+                     .link = handles[i].link,
+                     .grasps = static_cast<int>(proved.grasps.size()),
+                     .friction = proved.friction,
+                     .tried = proved.tried,
+                     .held_in_bullet = proved.held_in_bullet,
+                     .held_in_both = proved.held_in_both,
+                     .coverage = proved.coverage,
+                     .reason = handles[i].reason};
+    if (proof.reason.empty()) proof.reason = proved.WhyNone(gripper.model);
+    for (Grasp grasp : proved.grasps) {
+      grasp.link = proof.link;
+      grasp.joint = proof.joint;
+      set.grasps.push_back(std::move(grasp));
+    }
+    set.tried += proof.tried;
+    set.held_in_bullet += proof.held_in_bullet;
+    set.held_in_both += proof.held_in_both;
+    candidates += static_cast<double>(proved.sampling.grasps.size());
+    covered += proved.coverage * static_cast<double>(proved.sampling.grasps.size());
+    if (proof.grasps > 0 && (set.friction == 0.0 || proof.friction < set.friction)) {
+      set.friction = proof.friction;
+    }
+    set.joint_proofs.push_back(std::move(proof));
+  }
+  set.coverage = candidates > 0.0 ? covered / candidates : 0.0;
+  std::stable_sort(set.grasps.begin(), set.grasps.end(),
+                   [](const Grasp& a, const Grasp& b) { return a.quality > b.quality; });
+  return set;
+}
+
+std::vector<Grasp> GraspsOfJoint(const GraspSet& set, const std::string& joint) {
+  std::vector<Grasp> grasps;
+  std::copy_if(set.grasps.begin(), set.grasps.end(), std::back_inserter(grasps),
+               [&](const Grasp& grasp) { return !grasp.joint.empty() && grasp.joint == joint; });
+  return grasps;
+}
+
+std::vector<std::string> GraspedLinks(const GraspSet& set) {
+  std::set<std::string> links;
+  for (const Grasp& grasp : set.grasps) {
+    if (!grasp.link.empty()) links.insert(grasp.link);
+  }
+  return {links.begin(), links.end()};
 }
 
 Isometry3d GraspGenPose(const GraspSet& set, const Grasp& grasp) {
@@ -127,6 +264,7 @@ core::OrderedJson GraspSetJson(const GraspSet& set) {
                    {"held_in_bullet", set.held_in_bullet},
                    {"held_in_both", set.held_in_both},
                    {"coverage", set.coverage}};
+  if (!set.joint_proofs.empty()) json["proof"]["joints"] = JointProofsJson(set);
   json["grasps"] = GraspArrays(set);
   return json;
 }
@@ -156,29 +294,12 @@ GraspSet ReadGraspSet(const std::filesystem::path& file) {
   set.held_in_bullet = proof["held_in_bullet"].Int(0);
   set.held_in_both = proof["held_in_both"].Int(0);
   set.coverage = proof["coverage"].NumberWithin(0.0, 1.0);
-  const std::vector<core::JsonField> tools = grasps["tool_transforms"].Elements();
-  const std::vector<double> quality = grasps["quality"].Numbers(tools.size());
-  const std::vector<double> widths = grasps["width_m"].Numbers(tools.size());
-  const std::vector<double> openings = grasps["opening_m"].Numbers(tools.size());
-  const std::vector<core::JsonField> contacts = grasps["contacts_m"].Elements(tools.size());
-  const std::vector<core::JsonField> normals = grasps["normals"].Elements(tools.size());
-  const std::vector<core::JsonField> clears = grasps["clears_support"].Elements(tools.size());
-  for (size_t i = 0; i < tools.size(); ++i) {
-    Grasp grasp;
-    grasp.clears_support = clears[i].Flag();
-    grasp.object_from_tool = PoseFrom(tools[i]);
-    grasp.quality = quality[i];
-    grasp.width = widths[i];
-    grasp.opening = openings[i];
-    const std::vector<core::JsonField> points = contacts[i].Elements(2);
-    const std::vector<core::JsonField> outward = normals[i].Elements(2);
-    for (size_t c = 0; c < 2; ++c) {
-      grasp.contacts[c] = points[c].Vector<3>();
-      grasp.normals[c] = outward[c].Vector<3>();
+  if (proof.Has("joints")) {
+    for (const core::JsonField& joint : proof["joints"].Elements()) {
+      set.joint_proofs.push_back(JointProofFrom(joint));
     }
-    set.grasps.push_back(grasp);
   }
+  set.grasps = GraspsFrom(grasps);
   return set;
 }
-
 }  // namespace simwright::manipulation

@@ -17,6 +17,10 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kBatch = 16;  // candidates between two looks at the number of proved grasps
+// Knobs with sloping sides have few grasps at the sampler's angle: with fewer candidates than this,
+// a part is sampled again with closing axes up to this angle (rad) from the normals.
+constexpr size_t kFewCandidates = 50;
+constexpr double kWideAngle = 0.45;
 constexpr std::uint64_t kSamplerStream = 0, kFirstPerturbationStream = 1;
 
 // Returns a reason without its figures: "slipped in the lift".
@@ -36,6 +40,7 @@ std::string KindOf(const std::string& reason) {
     if (!kind.empty() && kind.back() == ' ') kind.pop_back();
     --i;
   }
+  if (kind.ends_with(':')) kind.pop_back();
   return kind;
 }
 
@@ -54,9 +59,9 @@ class GraspProver {
         seed_(seed),
         trial_(WithFriction(options.trial, friction)),
         perturbed_(trial_),
-        bullet_(sim::GraspEngine::kBullet, gripper, object.body,
-                WithMargin(trial_, options.margin_share)),
-        mujoco_(sim::GraspEngine::kMujoco, gripper, object.body, trial_) {
+        bullet_(TrialsOf(sim::GraspEngine::kBullet, gripper, object,
+                         WithMargin(trial_, options.margin_share))),
+        mujoco_(TrialsOf(sim::GraspEngine::kMujoco, gripper, object, trial_)) {
     perturbed_.shake = false;
     perturbed_.hold_time = options.perturbed_hold_time;
   }
@@ -79,6 +84,13 @@ class GraspProver {
   }
 
  private:
+  static sim::GraspTrials TrialsOf(sim::GraspEngine engine, const sim::GripperModel& gripper,
+                                   const GraspObject& object,
+                                   const sim::GraspTrialOptions& options) {
+    if (object.part) return sim::GraspTrials(engine, gripper, *object.part, options);
+    return sim::GraspTrials(engine, gripper, object.body, options);
+  }
+
   static sim::GraspTrialOptions WithFriction(sim::GraspTrialOptions trial, double friction) {
     trial.friction = friction;
     return trial;
@@ -153,6 +165,18 @@ std::vector<int> TrialOrder(const std::vector<Grasp>& candidates, int count) {
   return order;
 }
 
+GraspSampling SampleCandidates(const GraspObject& object, const sim::GripperModel& gripper,
+                               GraspSamplerOptions options, std::uint64_t seed) {
+  core::Rng rng = core::StreamRng(seed, kSamplerStream);
+  GraspSampling sampling = SampleAntipodalGrasps(object, gripper, options, rng);
+  if (!object.part || sampling.grasps.size() >= kFewCandidates ||
+      options.largest_angle >= kWideAngle) {
+    return sampling;
+  }
+  options.largest_angle = kWideAngle;
+  return SampleAntipodalGrasps(object, gripper, options, rng);
+}
+
 }  // namespace
 
 bool GraspProofOptions::IsValid(std::string* error) const {
@@ -172,6 +196,19 @@ bool GraspProofOptions::IsValid(std::string* error) const {
   return sampler.IsValid(error) && trial.IsValid(error);
 }
 
+std::string ProvedGrasps::WhyNone(const sim::GripperModel& gripper) const {
+  if (!grasps.empty()) return "";
+  if (sampling.grasps.empty()) return sampling.WhyNone(gripper);
+  std::string most = held_in_bullet > 0 ? "some hold in Bullet alone" : "none held";
+  int count = 0;
+  for (const auto& [reason, times] : failures) {
+    if (held_in_bullet > 0 || times <= count) continue;
+    count = times;
+    most = "most often: " + reason;
+  }
+  return "none of " + std::to_string(tried) + " candidates holds in both engines; " + most;
+}
+
 double ProvedGrasps::EngineAgreement() const {
   return held_in_bullet > 0 ? static_cast<double>(held_in_both) / held_in_bullet : 0.0;
 }
@@ -183,10 +220,10 @@ ProvedGrasps ProveGrasps(const GraspObject& object, const sim::GripperModel& gri
   if (!options.IsValid(&error)) throw core::Error("grasps: " + error);
   ProvedGrasps result;
   result.friction = object.friction * gripper.friction;
-  RequireLiftable(object, gripper, result.friction, options.trial.gravity);
-  core::Rng rng = core::StreamRng(seed, kSamplerStream);
-  result.sampling = SampleAntipodalGrasps(object, gripper, options.sampler, rng);
+  if (!object.part) RequireLiftable(object, gripper, result.friction, options.trial.gravity);
+  result.sampling = SampleCandidates(object, gripper, options.sampler, seed);
   if (result.sampling.grasps.empty()) {
+    if (object.part) return result;
     throw core::Error("no grasp: " + result.sampling.WhyNone(gripper), object.name,
                       "use another gripper");
   }

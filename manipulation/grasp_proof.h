@@ -44,12 +44,15 @@ struct ProvedGrasps {
 
   // Returns the share of the grasps proved in Bullet that hold in MuJoCo; 0 without any.
   double EngineAgreement() const;
+  // Returns one sentence on why none is proved; empty if some are.
+  std::string WhyNone(const sim::GripperModel& gripper) const;
 };
 
 // Samples grasps of an object and keeps those that hold in Bullet and in MuJoCo, a diverse choice
-// of at most options.count. Deterministic in `seed`, for any number of threads. Throws core::Error,
-// saying why, if the object cannot be grasped: it is too heavy, too wide, too thin, or the gripper
-// collides. `progress` counts the proved grasps; may be null.
+// of at most options.count. A part of an articulated body (GraspObject::part) holds if the gripper
+// moves its joint. Deterministic in `seed`, for any number of threads. Throws core::Error, saying
+// why, if a rigid object cannot be grasped: it is too heavy, too wide, too thin, or the gripper
+// collides; a part then has no grasps. `progress` counts the proved grasps; may be null.
 ProvedGrasps ProveGrasps(const GraspObject& object, const sim::GripperModel& gripper,
                          const GraspProofOptions& options, std::uint64_t seed,
                          core::Progress* progress = nullptr);

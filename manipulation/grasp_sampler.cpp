@@ -121,6 +121,7 @@ class AntipodalSampler {
       : gripper_(gripper),
         options_(options),
         rng_(rng),
+        down_(-object.support_from_object.linear().row(2).transpose()),
         surface_(object.surface),
         clearance_(object, gripper, options.approach, options.margin) {
     cone_ = std::min(std::atan(object.friction * gripper.friction), options.largest_angle);
@@ -171,7 +172,7 @@ class AntipodalSampler {
       const double turn = core::Uniform(rng_, 0.0, 2.0 * std::numbers::pi);
       if (AddGrasp(Eigen::AngleAxisd(turn, axis) * side, axis, grasp)) found = true;
     }
-    const Vector3d down = -Vector3d::UnitZ() + axis.z() * axis;
+    const Vector3d down = down_ - down_.dot(axis) * axis;
     for (int i = 0; i < options_.downward_approaches && down.norm() > kSteepEnough; ++i) {
       const double turn = core::Uniform(rng_, -kDownwardTilt, kDownwardTilt);
       if (AddGrasp(Eigen::AngleAxisd(turn, axis) * down.normalized(), axis, grasp)) found = true;
@@ -192,6 +193,7 @@ class AntipodalSampler {
   const sim::GripperModel& gripper_;
   const GraspSamplerOptions& options_;
   core::Rng& rng_;
+  Vector3d down_;  // unit, object frame
   GraspSurface surface_;
   GraspClearance clearance_;
   double cone_ = 0.0;   // rad
@@ -207,9 +209,21 @@ std::string Millimetres(double length) {
 
 }  // namespace
 
+// Convex shapes with their bounding boxes.
+struct GraspClearance::Parts {
+  std::vector<geometry::ConvexShape> shapes;
+  std::vector<Eigen::AlignedBox3d> boxes;
+
+  void Add(const std::vector<core::TriangleMesh>& meshes) {
+    for (const core::TriangleMesh& mesh : meshes) {
+      shapes.push_back(ShapeOf(mesh));
+      boxes.push_back(core::Bounds(mesh));
+    }
+  }
+};
+
 struct GraspClearance::Shapes {
-  std::vector<geometry::ConvexShape> object;
-  std::vector<Eigen::AlignedBox3d> boxes;  // of `object`
+  Parts object, passed;  // with GraspObject::obstacles; GraspObject::passed
   std::vector<geometry::ConvexShape> palm;
   std::array<std::vector<geometry::ConvexShape>, 2> fingers;  // fully open
   double max_opening = 0.0;
@@ -217,12 +231,11 @@ struct GraspClearance::Shapes {
 
 GraspClearance::GraspClearance(const GraspObject& object, const sim::GripperModel& gripper,
                                double approach, double margin)
-    : approach_(approach), margin_(margin) {
+    : approach_(approach), margin_(margin), support_from_object_(object.support_from_object) {
   auto shapes = std::make_unique<Shapes>();
-  for (const core::TriangleMesh& part : object.body.parts) {
-    shapes->object.push_back(ShapeOf(part));
-    shapes->boxes.push_back(core::Bounds(part));
-  }
+  shapes->object.Add(object.body.parts);
+  shapes->object.Add(object.obstacles);
+  shapes->passed.Add(object.passed);
   for (size_t p = 0; p < gripper.palm.size(); ++p) {
     if (p < gripper.palm_capsules.size() && gripper.palm_capsules[p]) {
       const sim::Capsule& capsule = *gripper.palm_capsules[p];
@@ -241,8 +254,15 @@ GraspClearance::GraspClearance(const GraspObject& object, const sim::GripperMode
 GraspClearance::~GraspClearance() = default;
 
 bool GraspClearance::IsFree(const Isometry3d& object_from_tool, double opening) const {
+  return IsFreeOf(shapes_->object, object_from_tool, opening, approach_) &&
+         IsFreeOf(shapes_->passed, object_from_tool, opening, 0.0);
+}
+
+bool GraspClearance::IsFreeOf(const Parts& parts, const Isometry3d& object_from_tool,
+                              double opening, double approach) const {
+  if (parts.shapes.empty()) return true;
   const double closing = 0.5 * (shapes_->max_opening - opening);
-  const Vector3d back = -approach_ * object_from_tool.linear().col(2);
+  const Vector3d back = -approach * object_from_tool.linear().col(2);
   geometry::ConvexShape swept;
   const auto is_free = [&](const geometry::ConvexShape& shape, double shift) {
     // The hull of a convex shape at both ends of a straight path is all that it sweeps.
@@ -252,16 +272,17 @@ bool GraspClearance::IsFree(const Isometry3d& object_from_tool, double opening) 
     for (const Vector3d& vertex : shape.vertices) {
       const Vector3d here = object_from_tool * Vector3d(vertex + shift * Vector3d::UnitY());
       swept.vertices.push_back(here);
-      swept.vertices.push_back(here + back);
       box.extend(here);
+      if (approach <= 0.0) continue;
+      swept.vertices.push_back(here + back);
       box.extend(here + back);
     }
     const Vector3d reach = Vector3d::Constant(shape.radius + margin_);
     box.min() -= reach;
     box.max() += reach;
-    for (size_t p = 0; p < shapes_->object.size(); ++p) {
-      if (!box.intersects(shapes_->boxes[p])) continue;
-      if (!geometry::AreApart(swept, shapes_->object[p], margin_)) return false;
+    for (size_t p = 0; p < parts.shapes.size(); ++p) {
+      if (!box.intersects(parts.boxes[p])) continue;
+      if (!geometry::AreApart(swept, parts.shapes[p], margin_)) return false;
     }
     return true;
   };
@@ -274,15 +295,16 @@ bool GraspClearance::IsFree(const Isometry3d& object_from_tool, double opening) 
 }
 
 double GraspClearance::LowestPoint(const Isometry3d& object_from_tool) const {
+  const Isometry3d support_from_tool = support_from_object_ * object_from_tool;
   double lowest = HUGE_VAL;
   for (const auto* shapes : {&shapes_->palm, &shapes_->fingers[0], &shapes_->fingers[1]}) {
     for (const geometry::ConvexShape& shape : *shapes) {
       for (const Vector3d& vertex : shape.vertices) {
-        lowest = std::min(lowest, (object_from_tool * vertex).z() - shape.radius);
+        lowest = std::min(lowest, (support_from_tool * vertex).z() - shape.radius);
       }
     }
   }
-  const double back = -approach_ * object_from_tool.linear()(2, 2);
+  const double back = -approach_ * support_from_tool.linear()(2, 2);
   return lowest + std::min(0.0, back);
 }
 

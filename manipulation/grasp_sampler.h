@@ -49,8 +49,9 @@ struct GraspSampling {
 GraspSampling SampleAntipodalGrasps(const GraspObject& object, const sim::GripperModel& gripper,
                                     const GraspSamplerOptions& options, core::Rng& rng);
 
-// Collision checks of a gripper against an object, at a pose and on the last `approach` (m) of a
-// straight path to it along the tool's z axis.
+// Collision checks of a gripper against an object and its obstacles, at a pose and on the last
+// `approach` (m) of a straight path to it along the tool's z axis; at the pose alone against
+// GraspObject::passed.
 class GraspClearance {
  public:
   GraspClearance(const GraspObject& object, const sim::GripperModel& gripper, double approach,
@@ -60,13 +61,18 @@ class GraspClearance {
   GraspClearance& operator=(const GraspClearance&) = delete;
 
   bool IsFree(const Eigen::Isometry3d& object_from_tool, double opening) const;
-  // Returns the least z (m, object frame) of the open gripper there and on the path.
+  // Returns the least height (m) above the support of the open gripper there and on the path.
   double LowestPoint(const Eigen::Isometry3d& object_from_tool) const;
 
  private:
+  struct Parts;
   struct Shapes;
+  bool IsFreeOf(const Parts& parts, const Eigen::Isometry3d& object_from_tool, double opening,
+                double approach) const;
+
   std::unique_ptr<const Shapes> shapes_;
   double approach_, margin_;
+  Eigen::Isometry3d support_from_object_;
 };
 
 }  // namespace simwright::manipulation

@@ -2,7 +2,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
 #include "sim/articulated_world.h"
 #include "sim/grasp_rig.h"
 
@@ -19,15 +18,22 @@ constexpr double kSlow = 0.3;  // the share of the finger's speed below which it
 class BulletGraspRig : public GraspRig {
  public:
   BulletGraspRig(std::shared_ptr<const PreparedBody> gripper,
-                 std::shared_ptr<const PreparedBody> object, double force,
-                 const GraspRigOptions& options, const GraspRigStart& start)
-      : force_(force), speed_(options.finger_speed), world_(Options()) {
+                 std::shared_ptr<const PreparedBody> prepared, const GraspRigObject& object,
+                 double force, const GraspRigOptions& options, const GraspRigStart& start)
+      : object_of_(object), force_(force), speed_(options.finger_speed), world_(Options()) {
     Placement hand{.world_from_root = start.world_from_tool, .fixed = false};
     hand.through_floor = {kPalmLink, kFirstFingerLink, kFirstFingerLink + 1};
     gripper_ = world_.Add(std::move(gripper), hand);
-    Placement placement{.world_from_root = start.world_from_object, .fixed = false};
-    if (!start.floor) placement.through_floor = {0};
-    object_ = world_.Add(std::move(object), placement);
+    Placement placement{.world_from_root = start.world_from_object, .fixed = object.fixed};
+    for (size_t i = 0; !start.floor && i < object.body.links.size(); ++i) {
+      placement.through_floor.push_back(static_cast<int>(i));
+    }
+    object_ = world_.Add(std::move(prepared), placement);
+    for (size_t j = 0; j < object.positions.size(); ++j) {
+      const assets::Joint& joint = object.body.joints()[j];
+      if (!joint.Moves() || joint.mimic) continue;
+      world_.SetPosition(object_, static_cast<int>(j), object.positions[j]);
+    }
     for (const int joint : {0, 1}) world_.SetPosition(gripper_, joint, start.closing);
   }
 
@@ -61,7 +67,12 @@ class BulletGraspRig : public GraspRig {
 
   double time_step() const override { return world_.time_step(); }
   Eigen::Isometry3d ToolPose() const override { return world_.LinkPose(gripper_, kPalmLink); }
-  Eigen::Isometry3d ObjectPose() const override { return world_.LinkPose(object_, 0); }
+  Eigen::Isometry3d ObjectPose() const override {
+    return world_.LinkPose(object_, object_of_.link);
+  }
+  double JointPosition() const override {
+    return object_of_.joint < 0 ? 0.0 : world_.Position(object_, object_of_.joint);
+  }
   std::array<double, 2> FingerPositions() const override {
     return {world_.Position(gripper_, 0), world_.Position(gripper_, 1)};
   }
@@ -75,6 +86,8 @@ class BulletGraspRig : public GraspRig {
       result.penetration = std::max(result.penetration, -contact.distance);
       if (contact.impulse <= 0.0) continue;
       const int link = gripper_first ? contact.link_a : contact.link_b;
+      const int touched = gripper_first ? contact.link_b : contact.link_a;
+      if (!object_of_.held[static_cast<size_t>(touched)]) continue;
       if (link == kPalmLink) {
         result.palm = true;
       } else {
@@ -91,6 +104,7 @@ class BulletGraspRig : public GraspRig {
     return options;
   }
 
+  const GraspRigObject& object_of_;
   double force_, speed_, gravity_ = 0.0;
   ArticulatedWorld world_;
   int gripper_ = -1, object_ = -1;
@@ -100,20 +114,23 @@ class BulletGraspRig : public GraspRig {
 
 class BulletGraspRigSource : public GraspRigSource {
  public:
-  BulletGraspRigSource(const GripperModel& gripper, RigidBody object,
+  BulletGraspRigSource(const GripperModel& gripper, const GraspRigObject& object,
                        const GraspRigOptions& options)
-      : force_(gripper.force), options_(options) {
-    object.friction = options.friction;  // Bullet multiplies, and the gripper's is 1
-    object.rolling_friction = 0.0;
-    object.torsional_friction = 0.0;
-    object_ = std::make_shared<PreparedBody>(ArticulatedBodyFrom(object));
+      : object_of_(object), force_(gripper.force), options_(options) {
+    for (RigidBody& link : object_of_.body.links) {
+      link.friction = options.friction;  // Bullet multiplies, and the gripper's is 1
+      link.rolling_friction = 0.0;
+      link.torsional_friction = 0.0;
+    }
+    object_ = std::make_shared<PreparedBody>(object_of_.body);
     gripper_ = std::make_shared<PreparedBody>(GripperBody(gripper, kDrivenPalmMass, 0.0));
   }
   std::unique_ptr<GraspRig> Make(const GraspRigStart& start) const override {
-    return std::make_unique<BulletGraspRig>(gripper_, object_, force_, options_, start);
+    return std::make_unique<BulletGraspRig>(gripper_, object_, object_of_, force_, options_, start);
   }
 
  private:
+  GraspRigObject object_of_;
   double force_;
   GraspRigOptions options_;
   std::shared_ptr<const PreparedBody> gripper_, object_;
@@ -122,11 +139,8 @@ class BulletGraspRigSource : public GraspRigSource {
 }  // namespace
 
 std::unique_ptr<GraspRigSource> BulletGraspRigs(const GripperModel& gripper,
-                                                const RigidBody& object,
+                                                const GraspRigObject& object,
                                                 const GraspRigOptions& options) {
-  if (object.parts.empty() || !(object.inertial.mass > 0.0)) {
-    throw core::Error("an object needs collision parts and a mass", object.name);
-  }
   return std::make_unique<BulletGraspRigSource>(gripper, object, options);
 }
 

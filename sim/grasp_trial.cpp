@@ -25,6 +25,11 @@ constexpr double kStartPenetration = 1e-3;  // m of the open gripper in the obje
 constexpr double kReleaseTime = 0.6;        // s
 constexpr double kReleaseFall = 0.05;       // m relative to the palm
 constexpr double kTrialInFloor = 1e-3;      // m
+// An arm yields along the closing axis to a finger that touches a part alone: by so much (m) in
+// all, as fast as the fingers while they close, and by so much (m/s) later.
+constexpr double kMostYield = 0.02;
+constexpr double kYieldSpeed = 0.01;
+constexpr double kAddedLoad = 0.05;
 
 std::string Formatted(const char* format, double value) {
   char text[200];
@@ -32,19 +37,33 @@ std::string Formatted(const char* format, double value) {
   return text;
 }
 
+// Returns an inertia (kg m^2 or kg) whose acceleration takes kAddedLoad of the friction and damping
+// that resist the motion of a joint: negligible, and far above damping times a time step.
+double NegligibleInertia(const GraspedPart& part, const GraspTrialOptions& options) {
+  const assets::Joint& joint = part.body.joints()[static_cast<size_t>(part.joint)];
+  const double rate = std::numbers::pi / options.joint_time;  // 1/s, of the cosine profile
+  const double half = 0.5 * options.joint_travel * std::abs(part.far - part.rest);
+  const double resistance = joint.friction + joint.damping * rate * half;
+  return kAddedLoad * resistance / (rate * rate * half);
+}
+
 // One trial.
 class TrialRun {
  public:
+  // `part`: null for a rigid object.
   TrialRun(GraspRig* rig, const GraspTrialOptions& options, const GraspRigStart& start,
-           double stroke)
+           double stroke, const GraspedPart* part)
       : rig_(*rig),
         options_(options),
+        part_(part),
         home_(start.world_from_tool),
         tool_(start.world_from_tool),
         stroke_(stroke) {}
 
   GraspTrialResult Run() {
-    if (Close() && Lift() && Shake() && Hold()) {
+    if (part_ != nullptr) {
+      result_.held = Close() && MoveJoint() && Hold() && ReachesShare();
+    } else if (Close() && Lift() && Shake() && Hold()) {
       result_.held = true;
       if (options_.release) Release();
     }
@@ -82,7 +101,7 @@ class TrialRun {
       if (steps_ * rig_.time_step() > kCloseTime) {
         return Fail("the fingers do not come to rest on it");
       }
-      rig_.MovePalm(home_);
+      rig_.MovePalm(Yielding(home_));
       rig_.DriveFingers(true);
       Step();
       const GraspContacts contacts = rig_.Contacts();
@@ -90,6 +109,7 @@ class TrialRun {
         return Fail("the open gripper is in it");
       }
       for (size_t i = 0; i < 2; ++i) touched[i] = touched[i] || contacts.fingers[i];
+      Yield(contacts.fingers, options_.finger_speed);
       if (steps_ % window != 0) continue;
       const std::array<double, 2> now = rig_.FingerPositions();
       if (std::min(now[0], now[1]) > stroke_ - 1e-4) return Fail("the fingers close beside it");
@@ -100,9 +120,10 @@ class TrialRun {
     }
     rig_.SetGravity(options_.gravity);
     for (double time = 0.0; time < kPressTime; time += rig_.time_step()) {
-      rig_.MovePalm(home_);
+      rig_.MovePalm(Yielding(home_));
       rig_.DriveFingers(true);
       Step();
+      Yield(rig_.Contacts().fingers, kYieldSpeed);
     }
     result_.closing = SlipSince(start);
     result_.closed = true;
@@ -112,19 +133,41 @@ class TrialRun {
     return true;
   }
 
+  // Moves the palm along the closing axis away from a finger that alone touches the part, so that
+  // the other one closes: an arm yields, and a part on a fixed base does not. `speed`: m/s.
+  void Yield(const std::array<bool, 2>& fingers, double speed) {
+    if (part_ == nullptr || fingers[0] == fingers[1]) return;
+    const double shift = (fingers[0] ? 1.0 : -1.0) * speed * rig_.time_step();
+    if (std::abs(yielded_ + shift) <= kMostYield) yielded_ += shift;
+  }
+
+  Isometry3d Yielding(const Isometry3d& tool) const {
+    return tool * Eigen::Translation3d(0.0, yielded_, 0.0);
+  }
+
   // Moves the palm from where it is along `offset(share)`, which is identity at 0, in `duration`
   // (s), and records the motion of the object in `largest`. False if it is lost.
   bool Follow(const std::function<Isometry3d(double)>& offset, double duration, const char* phase,
               GraspSlip* largest) {
     const Isometry3d from = tool_;
+    const auto pose = [&](double share) {
+      const Isometry3d moved = offset(share);
+      return Isometry3d(Eigen::Translation3d(from.translation() + moved.translation())) *
+             Isometry3d(Eigen::Quaterniond(from.linear() * moved.linear()).normalized());
+    };
+    return FollowPoses(pose, duration, phase, largest);
+  }
+
+  // Does the same along the poses world_from_tool of `pose(share)`.
+  bool FollowPoses(const std::function<Isometry3d(double)>& pose, double duration,
+                   const char* phase, GraspSlip* largest) {
     const int steps = std::max(1, static_cast<int>(std::lround(duration / rig_.time_step())));
     for (int i = 1; i <= steps; ++i) {
-      tool_ = offset(static_cast<double>(i) / steps);
-      tool_ = Isometry3d(Eigen::Translation3d(from.translation() + tool_.translation())) *
-              Isometry3d(Eigen::Quaterniond(from.linear() * tool_.linear()).normalized());
-      rig_.MovePalm(tool_);
+      tool_ = pose(static_cast<double>(i) / steps);
+      rig_.MovePalm(Yielding(tool_));
       rig_.DriveFingers(true);
       Step();
+      Yield(rig_.Contacts().fingers, kYieldSpeed);
       if (!Check(phase, largest)) return false;
     }
     return true;
@@ -173,6 +216,32 @@ class TrialRun {
     return true;
   }
 
+  // Leads the part along the motion of its joint, from where it is.
+  bool MoveJoint() {
+    const assets::Joint& joint = part_->body.joints()[static_cast<size_t>(part_->joint)];
+    const std::vector<Isometry3d> poses =
+        part_->body.kinematics->LinkPoses(part_->PositionsAt(0.0));
+    const Isometry3d& world_from_zero = poses[static_cast<size_t>(part_->joint) + 1];
+    const double from = rig_.JointPosition();
+    const double to = part_->rest + options_.joint_travel * (part_->far - part_->rest);
+    const Isometry3d carried =
+        (world_from_zero * assets::JointMotion(joint, from)).inverse() * tool_;
+    const auto pose = [&](double share) -> Isometry3d {
+      // Starts and ends at rest, with bounded acceleration.
+      const double position = from + 0.5 * (to - from) * (1.0 - std::cos(std::numbers::pi * share));
+      Isometry3d tool = world_from_zero * assets::JointMotion(joint, position) * carried;
+      tool.linear() = Eigen::Quaterniond(tool.linear()).normalized().toRotationMatrix();
+      return tool;
+    };
+    return FollowPoses(pose, options_.joint_time, "motion of the joint", &result_.joint_motion);
+  }
+
+  bool ReachesShare() {
+    result_.joint_share = (rig_.JointPosition() - part_->rest) / (part_->far - part_->rest);
+    if (result_.joint_share >= options_.least_joint_share) return true;
+    return Fail(Formatted("moves the joint too little: %.0f %%", 100.0 * result_.joint_share));
+  }
+
   bool Hold() {
     const Isometry3d start = rig_.ToolPose().inverse() * rig_.ObjectPose();
     GraspSlip since_closing;
@@ -203,10 +272,12 @@ class TrialRun {
 
   GraspRig& rig_;
   const GraspTrialOptions& options_;
+  const GraspedPart* part_;
   Isometry3d home_, tool_;  // world_from_tool: at the grasp, and commanded now
   double stroke_;
   Isometry3d grasped_ = Isometry3d::Identity();  // tool_from_object after closing
   int steps_ = 0;
+  double yielded_ = 0.0;  // m, of the palm along the closing axis
   GraspTrialResult result_;
 };
 
@@ -232,15 +303,53 @@ bool GraspTrialOptions::IsValid(std::string* error) const {
   if (!(slip_limit > 0.0 && turn_limit > 0.0 && creep_limit > 0.0 && penetration_limit > 0.0)) {
     return fail("the limits must be positive");
   }
+  if (!(joint_time > 0.0) || joint_time > 60.0) return fail("joint_time must be 0 to 60 s");
+  if (!(joint_travel > 0.0) || joint_travel > 1.0) return fail("joint_travel must be 0 to 1");
+  if (!(least_joint_share >= 0.0) || least_joint_share > joint_travel) {
+    return fail("least_joint_share must be 0 to joint_travel");
+  }
   return true;
+}
+
+GraspRigObject::GraspRigObject(const RigidBody& rigid)
+    : body(ArticulatedBodyFrom(rigid)), held({true}), moved_mass(rigid.inertial.mass) {
+  if (rigid.parts.empty() || !(rigid.inertial.mass > 0.0)) {
+    throw core::Error("an object needs collision parts and a mass", rigid.name);
+  }
+}
+
+GraspRigObject::GraspRigObject(const GraspedPart& part)
+    : body(part.body), fixed(true), link(part.link), joint(part.joint) {
+  std::string error;
+  if (!part.IsValid(&error)) {
+    throw core::Error("grasp trial: " + error, body.kinematics ? body.name() : "");
+  }
+  held = part.Held();
+  positions = part.PositionsAt(part.rest);
+  moved_mass = part.MovedMass();
 }
 
 GraspTrials::GraspTrials(GraspEngine engine, const GripperModel& gripper, const RigidBody& object,
                          const GraspTrialOptions& options)
     : stroke_(0.5 * gripper.max_opening), options_(options) {
+  Prepare(engine, gripper, GraspRigObject(object));
+}
+
+GraspTrials::GraspTrials(GraspEngine engine, const GripperModel& gripper, const GraspedPart& part,
+                         const GraspTrialOptions& options)
+    : stroke_(0.5 * gripper.max_opening), options_(options), part_(part) {
+  GraspRigObject object(part);
+  object.added_inertia = NegligibleInertia(part, options);
+  Prepare(engine, gripper, object);
+}
+
+GraspTrials::~GraspTrials() = default;
+
+void GraspTrials::Prepare(GraspEngine engine, const GripperModel& gripper,
+                          const GraspRigObject& object) {
   std::string error;
-  if (!options.IsValid(&error)) throw core::Error("grasp trial: " + error);
-  const GraspRigOptions rig{.friction = options.friction, .finger_speed = options.finger_speed};
+  if (!options_.IsValid(&error)) throw core::Error("grasp trial: " + error);
+  const GraspRigOptions rig{.friction = options_.friction, .finger_speed = options_.finger_speed};
   rigs_ = engine == GraspEngine::kBullet ? BulletGraspRigs(gripper, object, rig)
                                          : MujocoGraspRigs(gripper, object, rig);
   for (const auto* parts : {&gripper.palm, &gripper.fingers[0], &gripper.fingers[1]}) {
@@ -250,7 +359,28 @@ GraspTrials::GraspTrials(GraspEngine engine, const GripperModel& gripper, const 
   }
 }
 
-GraspTrials::~GraspTrials() = default;
+GraspRigStart GraspTrials::StartOf(const GraspTrialInput& input) const {
+  if (!(input.opening >= 0.0) || input.opening > 2.0 * stroke_ + 1e-9) {
+    throw core::Error("grasp trial: the opening must be 0 to " +
+                      Formatted("%.0f mm", 2e3 * stroke_));
+  }
+  if (part_ && input.world_from_object) {
+    throw core::Error("grasp trial: a part has no pose on the floor", part_->body.name());
+  }
+  GraspRigStart start;
+  start.closing = std::max(0.0, stroke_ - 0.5 * input.opening);
+  if (part_) {
+    const std::vector<Isometry3d> poses =
+        part_->body.kinematics->LinkPoses(part_->PositionsAt(part_->rest));
+    start.world_from_tool = poses[static_cast<size_t>(part_->link)] * input.object_from_tool;
+    return start;
+  }
+  start.floor = input.world_from_object.has_value();
+  start.world_from_object =
+      input.world_from_object.value_or(Isometry3d(Eigen::Translation3d(0, 0, kFloatingHeight)));
+  start.world_from_tool = start.world_from_object * input.object_from_tool;
+  return start;
+}
 
 GraspTrialResult GraspTrials::Run(const GraspTrialInput& input) const {
   return Run(input, options_);
@@ -258,16 +388,7 @@ GraspTrialResult GraspTrials::Run(const GraspTrialInput& input) const {
 
 GraspTrialResult GraspTrials::Run(const GraspTrialInput& input,
                                   const GraspTrialOptions& options) const {
-  if (!(input.opening >= 0.0) || input.opening > 2.0 * stroke_ + 1e-9) {
-    throw core::Error("grasp trial: the opening must be 0 to " +
-                      Formatted("%.0f mm", 2e3 * stroke_));
-  }
-  GraspRigStart start;
-  start.floor = input.world_from_object.has_value();
-  start.world_from_object =
-      input.world_from_object.value_or(Isometry3d(Eigen::Translation3d(0, 0, kFloatingHeight)));
-  start.world_from_tool = start.world_from_object * input.object_from_tool;
-  start.closing = std::max(0.0, stroke_ - 0.5 * input.opening);
+  const GraspRigStart start = StartOf(input);
   if (start.floor) {
     double lowest = HUGE_VAL;
     for (const Vector3d& corner : corners_) {
@@ -280,8 +401,8 @@ GraspTrialResult GraspTrials::Run(const GraspTrialInput& input,
     }
   }
   const std::unique_ptr<GraspRig> rig = rigs_->Make(start);
-  if (start.floor) rig->SetGravity(options.gravity);
-  return TrialRun(rig.get(), options, start, stroke_).Run();
+  if (start.floor || part_) rig->SetGravity(options.gravity);
+  return TrialRun(rig.get(), options, start, stroke_, part_ ? &*part_ : nullptr).Run();
 }
 
 }  // namespace simwright::sim

@@ -32,12 +32,16 @@ constexpr double kImpedance = 0.98;
 // The depth to which a force sinks in is inversely proportional to the mass.
 constexpr double kLight = 0.05, kLightStep = 0.001, kStep = 0.002;
 constexpr int kGripperBody = 0, kObjectBody = 1;  // in the list of placements
+constexpr int kNoLink = -1;
 
 // The compiled model, and data that finished rigs return for the next ones.
 class GraspModel {
  public:
-  GraspModel(const GripperModel& gripper, const RigidBody& object, const GraspRigOptions& options)
-      : force_(gripper.force), scene_(File(gripper, object, options), {}, kGround) {
+  GraspModel(const GripperModel& gripper, const GraspRigObject& object,
+             const GraspRigOptions& options)
+      : object_(object),
+        force_(gripper.force),
+        scene_(File(gripper, object, options), {}, kGround) {
     mjModel& model = *scene_.model();
     model.opt.gravity[2] = 0.0;
     model.opt.cone = mjCONE_ELLIPTIC;
@@ -45,13 +49,29 @@ class GraspModel {
     model.opt.noslip_iterations = kNoSlipIterations;
     model.opt.enableflags |= mjENBL_MULTICCD;
     palm_ = Find(mjOBJ_BODY, MjcfName("link", kGripperBody, kPalmLink));
-    object_ = Find(mjOBJ_BODY, MjcfName("link", kObjectBody, 0));
+    links_.assign(static_cast<size_t>(model.nbody), kNoLink);
+    for (size_t i = 0; i < object.body.links.size(); ++i) {
+      const int id = Find(mjOBJ_BODY, MjcfName("link", kObjectBody, i));
+      links_[static_cast<size_t>(id)] = static_cast<int>(i);
+      ids_.push_back(id);
+    }
+    for (size_t j = 0; j < object.body.joints().size(); ++j) {
+      addresses_.push_back(
+          object.body.joints()[j].Moves()
+              ? model.jnt_qposadr[Find(mjOBJ_JOINT, MjcfName("joint", kObjectBody, j))]
+              : -1);
+    }
     for (size_t i = 0; i < 2; ++i) {
       bodies_[i] = Find(mjOBJ_BODY, MjcfName("link", kGripperBody, kFirstFingerLink + i));
       joints_[i] = Find(mjOBJ_JOINT, MjcfName("joint", kGripperBody, i));
       model.dof_armature[model.jnt_dofadr[joints_[i]]] = kFingerArmature;
     }
     for (int i = 0; i < 6; ++i) model.dof_armature[Dof(palm_) + i] = kPalmArmature;
+    if (object.joint >= 0) {
+      const int joint =
+          Find(mjOBJ_JOINT, MjcfName("joint", kObjectBody, static_cast<size_t>(object.joint)));
+      model.dof_armature[model.jnt_dofadr[joint]] += object.added_inertia;
+    }
     SetContacts(options.friction, gripper.torsion, &model);
     mj_setConst(&model, scene_.data());
   }
@@ -64,7 +84,13 @@ class GraspModel {
   const mjModel* model() const { return scene_.model(); }
   double force() const { return force_; }
   int palm() const { return palm_; }
-  int object() const { return object_; }
+  const GraspRigObject& object() const { return object_; }
+  // Returns the link of the object that MuJoCo's body is; kNoLink for other bodies.
+  int LinkOf(int body) const { return links_[static_cast<size_t>(body)]; }
+  int BodyOf(int link) const { return ids_[static_cast<size_t>(link)]; }
+  const std::vector<int>& bodies() const { return ids_; }  // by link of the object
+  // Returns the place in qpos by joint of the object; -1 for a fixed joint.
+  const std::vector<int>& addresses() const { return addresses_; }
   int finger(size_t index) const { return bodies_[index]; }
   int joint(size_t index) const { return joints_[index]; }
   int Dof(int body) const { return model()->jnt_dofadr[model()->body_jntadr[body]]; }
@@ -91,20 +117,19 @@ class GraspModel {
  private:
   static constexpr MujocoScene::Ground kGround = MujocoScene::Ground::kOwn;
 
-  std::filesystem::path File(const GripperModel& gripper, const RigidBody& object,
+  std::filesystem::path File(const GripperModel& gripper, const GraspRigObject& object,
                              const GraspRigOptions& options) const {
     // The damping limits the speed: at finger_speed it takes up the whole force.
     const ArticulatedBody hand =
         GripperBody(gripper, kPalmMass, gripper.force / options.finger_speed);
-    const ArticulatedBody body = ArticulatedBodyFrom(object);
     const auto identity = Eigen::Isometry3d::Identity();
     const std::filesystem::path path = folder_.path() / "grasp.xml";
-    core::WriteFile(path,
-                    BodiesMjcf({{&hand, identity, false, {}}, {&body, identity, false, {}}},
-                               {.time_step = object.inertial.mass < kLight ? kLightStep : kStep,
-                                .contacts = 300,
-                                .rows = 1000,
-                                .floor = true}));
+    core::WriteFile(
+        path, BodiesMjcf({{&hand, identity, false, {}}, {&object.body, identity, object.fixed, {}}},
+                         {.time_step = object.moved_mass < kLight ? kLightStep : kStep,
+                          .contacts = 300,
+                          .rows = 1000,
+                          .floor = true}));
     return path;
   }
 
@@ -117,7 +142,10 @@ class GraspModel {
       const int body = model->geom_bodyid[geom];
       if (body == 0) continue;  // the floor
       model->geom_friction[3 * geom] = friction;
-      if (body == object_) continue;
+      if (LinkOf(body) != kNoLink) {
+        if (object_.fixed) model->geom_conaffinity[geom] &= ~1;
+        continue;
+      }
       model->geom_conaffinity[geom] &= ~1;  // passes through the floor
       if (body == palm_) continue;
       model->geom_condim[geom] = 4;  // with torsional friction, of which MuJoCo takes the greater
@@ -132,9 +160,13 @@ class GraspModel {
   }
 
   core::TemporaryFolder folder_;
+  GraspRigObject object_;
   double force_;
   MujocoScene scene_;
-  int palm_ = -1, object_ = -1;
+  int palm_ = -1;
+  std::vector<int> links_;      // by MuJoCo's body
+  std::vector<int> ids_;        // by link
+  std::vector<int> addresses_;  // by joint
   std::array<int, 2> bodies_ = {-1, -1}, joints_ = {-1, -1};
   mutable std::mutex mutex_;
   mutable std::vector<mjData*> spare_;
@@ -149,7 +181,14 @@ class MujocoGraspRig : public GraspRig {
         tool_(start.world_from_tool),
         target_(start.world_from_tool) {
     WriteMujocoPose(tool_, data_->qpos + compiled_.Position(compiled_.palm()));
-    WriteMujocoPose(start.world_from_object, data_->qpos + compiled_.Position(compiled_.object()));
+    const GraspRigObject& object = compiled_.object();
+    if (!object.fixed) {
+      WriteMujocoPose(start.world_from_object, data_->qpos + compiled_.Position(RootBody()));
+    }
+    for (size_t j = 0; j < compiled_.addresses().size(); ++j) {
+      if (compiled_.addresses()[j] < 0) continue;
+      data_->qpos[compiled_.addresses()[j]] = object.positions[j];
+    }
     for (size_t i = 0; i < 2; ++i) {
       data_->qpos[model_->jnt_qposadr[compiled_.joint(i)]] = start.closing;
     }
@@ -178,16 +217,30 @@ class MujocoGraspRig : public GraspRig {
     linear = (target_.translation() - tool_.translation()) / step;
     angular = turn.angle() / step * turn.axis();  // MuJoCo takes it in the body's frame
     // Weight alone: MuJoCo keeps gravity in the shared model.
-    const int object = compiled_.object();
-    data_->xfrc_applied[6 * object + 2] = -gravity_ * model_->body_mass[object];
+    for (const int body : compiled_.bodies()) {
+      data_->xfrc_applied[6 * body + 2] = -gravity_ * model_->body_mass[body];
+    }
     mj_step(model_, data_);
+    // mj_step leaves the poses of links at the start of the step.
+    if (compiled_.object().fixed) mj_kinematics(model_, data_);
     tool_ = target_;
   }
 
   double time_step() const override { return model_->opt.timestep; }
   Eigen::Isometry3d ToolPose() const override { return tool_; }
   Eigen::Isometry3d ObjectPose() const override {
-    return ReadMujocoPose(data_->qpos + compiled_.Position(compiled_.object()));
+    const GraspRigObject& object = compiled_.object();
+    if (!object.fixed) return ReadMujocoPose(data_->qpos + compiled_.Position(RootBody()));
+    const int body = compiled_.BodyOf(object.link);
+    const mjtNum* quaternion = data_->xquat + 4 * body;
+    Eigen::Isometry3d pose(
+        Eigen::Quaterniond(quaternion[0], quaternion[1], quaternion[2], quaternion[3]));
+    pose.translation() = Eigen::Map<const Eigen::Vector3d>(data_->xpos + 3 * body);
+    return pose;
+  }
+  double JointPosition() const override {
+    const int joint = compiled_.object().joint;
+    return joint < 0 ? 0.0 : data_->qpos[compiled_.addresses()[static_cast<size_t>(joint)]];
   }
   std::array<double, 2> FingerPositions() const override {
     return {data_->qpos[model_->jnt_qposadr[compiled_.joint(0)]],
@@ -199,11 +252,12 @@ class MujocoGraspRig : public GraspRig {
     for (int i = 0; i < data_->ncon; ++i) {
       const mjContact& contact = data_->contact[i];
       const int a = model_->geom_bodyid[contact.geom1], b = model_->geom_bodyid[contact.geom2];
-      if (a != compiled_.object() && b != compiled_.object()) continue;
-      const int other = a == compiled_.object() ? b : a;
-      if (other == 0) continue;  // the floor
+      const bool first = compiled_.LinkOf(a) != kNoLink;
+      const int link = compiled_.LinkOf(first ? a : b);
+      const int other = first ? b : a;
+      if (link == kNoLink || other == 0) continue;  // the floor
       result.penetration = std::max(result.penetration, -contact.dist);
-      if (contact.dist > 0.0) continue;
+      if (contact.dist > 0.0 || !compiled_.object().held[static_cast<size_t>(link)]) continue;
       if (other == compiled_.palm()) result.palm = true;
       for (size_t f = 0; f < 2; ++f) {
         if (other == compiled_.finger(f)) result.fingers[f] = true;
@@ -213,6 +267,8 @@ class MujocoGraspRig : public GraspRig {
   }
 
  private:
+  int RootBody() const { return compiled_.BodyOf(0); }
+
   const GraspModel& compiled_;
   const mjModel* model_;
   mjData* data_;
@@ -222,7 +278,7 @@ class MujocoGraspRig : public GraspRig {
 
 class MujocoGraspRigSource : public GraspRigSource {
  public:
-  MujocoGraspRigSource(const GripperModel& gripper, const RigidBody& object,
+  MujocoGraspRigSource(const GripperModel& gripper, const GraspRigObject& object,
                        const GraspRigOptions& options)
       : compiled_(gripper, object, options) {}
   std::unique_ptr<GraspRig> Make(const GraspRigStart& start) const override {
@@ -236,11 +292,8 @@ class MujocoGraspRigSource : public GraspRigSource {
 }  // namespace
 
 std::unique_ptr<GraspRigSource> MujocoGraspRigs(const GripperModel& gripper,
-                                                const RigidBody& object,
+                                                const GraspRigObject& object,
                                                 const GraspRigOptions& options) {
-  if (object.parts.empty() || !(object.inertial.mass > 0.0)) {
-    throw core::Error("an object needs collision parts and a mass", object.name);
-  }
   return std::make_unique<MujocoGraspRigSource>(gripper, object, options);
 }
 

@@ -64,6 +64,8 @@ core::OrderedJson ReadGrasps(const std::filesystem::path& file, std::size_t most
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return qualities[a] > qualities[b]; });
   if (order.size() > most) order.resize(most);
+  std::vector<core::JsonField> links;
+  if (grasps.Has("link")) links = grasps["link"].Elements(transforms.size());
   core::OrderedJson json = {{"count", transforms.size()},
                             {"shown", order.size()},
                             {"poses", core::OrderedJson::array()},
@@ -74,6 +76,7 @@ core::OrderedJson ReadGrasps(const std::filesystem::path& file, std::size_t most
     json["poses"].push_back(PoseNumbers(of_tool ? pose : ToolOf(pose)));
     json["openings"].push_back(openings[i]);
     json["qualities"].push_back(qualities[i]);
+    if (!links.empty()) json["links"].push_back(links[i].Name());
   }
   return json;
 }

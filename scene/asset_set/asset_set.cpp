@@ -51,7 +51,8 @@ CategorySize SizeOfBody(const sim::RigidBody& body) {
 
 }  // namespace
 
-void AssetSet::Add(const std::string& category, sim::RigidBody body, core::TexturedMesh visual) {
+void AssetSet::Add(const std::string& category, sim::RigidBody body, core::TexturedMesh visual,
+                   std::filesystem::path folder) {
   if (Has(category)) throw core::Error("a category has two assets", category);
   if (body.parts.empty()) throw core::Error("an asset needs collision parts", category);
   SceneAsset asset;
@@ -61,6 +62,7 @@ void AssetSet::Add(const std::string& category, sim::RigidBody body, core::Textu
     for (const core::TriangleMesh& part : body.parts) core::Append(part, &visual.mesh);
   }
   asset.visual = std::move(visual);
+  asset.folder = std::move(folder);
   asset.body = std::move(body);
   assets_.emplace(category, std::move(asset));
 }
@@ -76,6 +78,7 @@ void AssetSet::UseConvexHullCollision(const std::string& category) {
   asset.body.capsules.clear();
   asset.parts = {{asset.body.parts[0].vertices, 0.0}};
   asset.size = SizeOfBody(asset.body);
+  asset.folder.clear();
 }
 
 const SceneAsset& AssetSet::At(const std::string& category) const {

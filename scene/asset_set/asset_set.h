@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,17 +19,21 @@ struct SceneAsset {
   std::vector<geometry::ConvexShape> parts;  // the same parts, for projection
   CategorySize size;                         // for grammars
   core::TexturedMesh visual;                 // for rendering
+  // The asset's folder, with what was made for exactly these collision parts, such as the proved
+  // grasps of grasps.json; empty: none.
+  std::filesystem::path folder;
 };
 
 // An asset set: the assets of scenes by category. Thread-safe once it is filled.
 class AssetSet {
  public:
   // Adds an asset. Throws core::Error for a category that exists or a body without parts. Without a
-  // `visual` the parts are rendered.
-  void Add(const std::string& category, sim::RigidBody body, core::TexturedMesh visual = {});
+  // `visual` the parts are rendered. `folder`: SceneAsset::folder.
+  void Add(const std::string& category, sim::RigidBody body, core::TexturedMesh visual = {},
+           std::filesystem::path folder = {});
 
   // Replaces the collision parts by their convex hull: fewer contacts for a hollow asset, and no
-  // object fits into it. Throws as At does.
+  // object fits into it. It then has no folder. Throws as At does.
   void UseConvexHullCollision(const std::string& category);
 
   // Returns the asset of a category. Throws core::Error, naming the category, if there is none.

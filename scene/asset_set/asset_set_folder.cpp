@@ -79,7 +79,7 @@ AssetSet ReadAssetSet(const CategoryFolders& folders) {
       throw core::Error("the asset has no collision parts", path.string(),
                         "make it with `simwright import` or `lift`");
     }
-    asset_set.Add(category, sim::BodyFromAsset(asset), asset.visual);
+    asset_set.Add(category, sim::BodyFromAsset(asset), asset.visual, path);
   }
   return asset_set;
 }

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kRim = 0.15 + 0.09, kHalfDepth = 0.16, kCell = 0.34 / 20;
+constexpr double kRim = 0.15 + 0.09, kTopHalfDepth = 0.16, kTopCell = 0.34 / 20;
 
 struct Drawer {
   tasks::WorldModel model = tasks::MakeWorldModel({skills::WithInertia(tasks::DrawerUnit())});
@@ -49,15 +49,15 @@ TEST(OpenRoom, OfADrawerIsWhatStandsOut) {
   ASSERT_TRUE(OpensUpwards(drawer.model, open, 0, drawer.room()));
   // Its middle is 0.34 / 2 behind its front; the middle of the part that is out by 0.2 is 0.1
   // behind it.
-  const double front = 0.8 - 0.02 - 0.2 - kHalfDepth;
+  const double front = 0.8 - 0.02 - 0.2 - kTopHalfDepth;
   const Vector3d spot =
       drawer.InWorld(open, PlacementFromAbove(drawer.model, open, 0, drawer.room()));
-  EXPECT_NEAR(spot.x(), front + 0.1, kCell);
-  EXPECT_NEAR(spot.y(), 0.0, kCell);
+  EXPECT_NEAR(spot.x(), front + 0.1, kTopCell);
+  EXPECT_NEAR(spot.y(), 0.0, kTopCell);
   // No part of a shut drawer is out.
   const Vector3d none =
       drawer.InWorld(shut, PlacementFromAbove(drawer.model, shut, 0, drawer.room()));
-  EXPECT_NEAR(none.x(), 0.8 - 0.02 - kHalfDepth, kCell);
+  EXPECT_NEAR(none.x(), 0.8 - 0.02 - kTopHalfDepth, kTopCell);
 }
 
 TEST(OpenRoom, HasARimThatTheHandGoesOver) {

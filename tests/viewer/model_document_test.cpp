@@ -102,6 +102,15 @@ TEST_F(Grasps, TheBestComeFirst) {
   EXPECT_EQ(Read(kTwoGrasps, 1)["poses"].size(), 1u);
 }
 
+TEST_F(Grasps, LinksFollowTheirPoses) {
+  std::string text = kTwoGrasps;
+  text.insert(text.rfind("}}"), R"(, "link": ["handle_0", "handle_1"])");
+  const core::OrderedJson grasps = Read(text);
+  EXPECT_EQ(grasps["links"][0], "handle_1");
+  EXPECT_EQ(grasps["links"][1], "handle_0");
+  EXPECT_FALSE(Read(kTwoGrasps).contains("links"));
+}
+
 TEST_F(Grasps, PosesOfAHandLeadToItsFingertips) {
   // A hand that approaches from above at the origin: x closes, z points down.
   const core::OrderedJson grasps = Read(

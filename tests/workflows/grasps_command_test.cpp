@@ -88,10 +88,33 @@ TEST(GraspsCommand, WritesProvedGraspsAndPicksWithThem) {
   ExpectSkillsUseGrasps(soap, folder.path());
 }
 
+TEST(GraspsCommand, WritesProvedGraspsOfHandles) {
+  const core::TemporaryFolder folder;
+  const std::string box = AssetOf("box_with_lid", folder.path());
+  const Outcome made = RunProgram("grasps " + box + " --count 3 --json", "/dev/null");
+  ASSERT_EQ(made.code, 0) << made.text;
+  const core::Json report = core::ParseJson(made.text, "the report")["assets"][0];
+  EXPECT_EQ(report["grasps"], 3);
+  ASSERT_EQ(report["joints"].size(), 1u);
+  EXPECT_GE(report["joints"][0]["held_in_both"], 3);
+  const manipulation::GraspSet set =
+      manipulation::ReadGraspSet(fs::path(box) / manipulation::kGraspFileName);
+  EXPECT_EQ(set.mesh, "box_with_lid_1.urdf");
+  const std::string joint = report["joints"][0]["joint"];
+  EXPECT_EQ(manipulation::GraspsOfJoint(set, joint).size(), 3u);
+  EXPECT_TRUE(fs::exists(fs::path(box) / "grasps.png"));
+  const fs::path yaml = folder.path() / "lid.yaml";
+  ASSERT_EQ(RunProgram("grasps " + box + " --count 1 --quiet -o " + yaml.string()).code, 0);
+  EXPECT_FALSE(fs::exists(yaml));
+  const std::string link = report["joints"][0]["link"];
+  EXPECT_TRUE(fs::exists(folder.path() / ("lid_" + link + ".yaml")));
+  ExpectGraspError(box + " --count 1 -o " + yaml.string(), "lid_" + link + ".yaml");
+}
+
 TEST(GraspsCommand, SaysWhatItCannotGrasp) {
   const core::TemporaryFolder folder;
   ExpectGraspError(AssetOf("board_game_large", folder.path()), "no grasp: ");
-  ExpectGraspError(AssetOf("light_switch", folder.path()), "is an articulated asset");
+  ExpectGraspError(AssetOf("light_switch", folder.path()), "no grasp: no hand moves");
   ExpectGraspError((folder.path() / "nothing").string(), "holds no asset.json");
   // A solid that lacks its last face.
   const std::string book = AssetOf("book", folder.path() / "open");

@@ -2,12 +2,17 @@
 // rejected.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "core/files.h"
+#include "manipulation/grasp_file.h"
 #include "program.h"
 #include "robot/trajectory_file.h"
 #include "running_program.h"
@@ -25,6 +30,7 @@ class SceneCertifyCommand : public testing::Test {
   static void CertifiesEveryObject();
   static void TakesPoses();
   static void SearchesForSolvableScenes();
+  static void TakesProvedGrasps();
   static void RefusesWhatDoesNotFit();
   static void LeavesNothingWhenStopped();
 
@@ -118,6 +124,49 @@ void SceneCertifyCommand::TakesPoses() {
   EXPECT_EQ(scene["world_from_robot"]["translation"][2], 0.3);
 }
 
+// The grasp of a certificate is one of the asset's proved grasps, which may lie in another folder.
+void SceneCertifyCommand::TakesProvedGrasps() {
+  fs::create_directories(At("grasps"));
+  const std::string file = At("grasps/pear.json");
+  ASSERT_EQ(
+      RunProgram("grasps " + At("pantry/assets/pear") + " --count 12 --quiet -o " + file).code, 0);
+  const auto certify = [](const std::string& rest, const std::string& output) {
+    const Outcome made =
+        Certify(At("pantry/poses.json"), "bring the pear to the front",
+                "--base=-0.6,0,0.3,0 --no-pictures --json " + rest + " -o " + At(output));
+    EXPECT_EQ(made.code, 0) << made.text;
+    const json scene = Report(output)["scenes"][0];
+    EXPECT_TRUE(scene["solvable"].get<bool>()) << scene;
+    return std::make_pair(made.text, scene);
+  };
+  const manipulation::GraspSet set = manipulation::ReadGraspSet(file);
+  const auto is_proved = [&](const json& scene) {
+    const json& pose = scene["plan"]["grasp"];
+    const auto at = pose["translation"].get<std::vector<double>>();
+    const auto turn = pose["quaternion_wxyz"].get<std::vector<double>>();
+    Eigen::Isometry3d grasp(Eigen::Quaterniond(turn[0], turn[1], turn[2], turn[3]));
+    grasp.translation() = Eigen::Vector3d(at[0], at[1], at[2]);
+    return std::any_of(set.grasps.begin(), set.grasps.end(), [&](const auto& proved) {
+      return proved.object_from_tool.isApprox(grasp, 1e-6);
+    });
+  };
+  const auto [with_text, with] = certify("--grasps " + At("grasps"), "with_grasps");
+  EXPECT_TRUE(is_proved(with)) << with["plan"]["grasp"];
+  EXPECT_EQ(with_text.find("certify-sampled-grasps"), std::string::npos) << with_text;
+  const auto [without_text, without] = certify("", "without_grasps");
+  EXPECT_FALSE(is_proved(without));
+  EXPECT_NE(without_text.find("certify-sampled-grasps"), std::string::npos) << without_text;
+  EXPECT_NE(without_text.find("1 of 1 objects have no proved grasps (pear)"), std::string::npos);
+  fs::copy(file, At("pantry/assets/pear/grasps.json"));
+  EXPECT_TRUE(is_proved(certify("", "own_grasps").second));
+  EXPECT_FALSE(is_proved(certify("--grasps none", "no_grasps").second));
+  fs::remove(At("pantry/assets/pear/grasps.json"));
+  const Outcome missing = Certify(At("pantry/poses.json"), "lift the pear",
+                                  "--grasps " + At("nowhere") + " -o " + At("bad"));
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_NE(missing.text.find("is no folder of grasps"), std::string::npos) << missing.text;
+}
+
 // The objectives of `scene search` agree with the certificate of the scene that it starts from.
 void SceneCertifyCommand::SearchesForSolvableScenes() {
   const auto search = [](const std::string& objective, const std::string& task,
@@ -201,6 +250,7 @@ TEST_F(SceneCertifyCommand, ProvesOrNamesWhatIsInTheWay) {
   CertifiesAScene();
   CertifiesEveryObject();
   TakesPoses();
+  TakesProvedGrasps();
   SearchesForSolvableScenes();
   RefusesWhatDoesNotFit();
   LeavesNothingWhenStopped();

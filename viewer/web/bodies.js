@@ -1,6 +1,6 @@
 // A placed model: one group of objects per link and layer.
 import * as THREE from './three.module.min.js';
-import { frameGlyph, graspGlyph, jointGlyph, massGlyph, boxGlyph } from './glyphs.js';
+import { frameGlyph, graspGlyph, graspsAt, jointGlyph, massGlyph, boxGlyph } from './glyphs.js';
 import { linkPoses, moves, multiply, restOf } from './kinematics.js';
 import { plainMaterial } from './meshes.js';
 
@@ -144,7 +144,12 @@ export class Body {
     this.model.joints.forEach((joint, i) => {
       if (layer === 'joints' && moves(joint)) add(i + 1, jointGlyph(joint, 0.3 * this.sizeOf(i + 1)));
     });
-    if (layer === 'grasps' && this.model.grasps) add(0, graspGlyph(this.model.grasps));
+    if (layer === 'grasps' && this.model.grasps) {
+      this.model.links.forEach((link, i) => {
+        const grasps = graspsAt(this.model.grasps, link.name, i === 0);
+        if (grasps.poses.length > 0) add(i, graspGlyph(grasps));
+      });
+    }
   }
 
   // Returns the AABB of the loaded meshes in the world.

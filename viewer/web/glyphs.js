@@ -82,6 +82,17 @@ export function qualityColor(quality) {
   return [color.r, color.g, color.b];
 }
 
+// Returns the grasps at a link, in its frame; those of a rigid body are at its root.
+export function graspsAt(grasps, link, isRoot) {
+  if (!grasps.links) return isRoot ? grasps : { poses: [], openings: [], qualities: [] };
+  const here = (_, i) => grasps.links[i] === link;
+  return {
+    poses: grasps.poses.filter(here),
+    openings: grasps.openings.filter(here),
+    qualities: grasps.qualities.filter(here),
+  };
+}
+
 // Returns a fork for each grasp: two fingers along the approach (z), apart along y, and a stem.
 export function graspGlyph(grasps, depth = 0.045) {
   const points = [], colors = [];

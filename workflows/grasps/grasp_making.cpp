@@ -11,11 +11,10 @@
 #include "core/image.h"
 #include "core/json.h"
 #include "geometry/mesh_validity.h"
-#include "manipulation/grasp_formats.h"
 #include "manipulation/grasp_proof.h"
-#include "manipulation/parallel_gripper.h"
 #include "sim/rigid_body.h"
 #include "workflows/grasps/grasp_preview.h"
+#include "workflows/grasps/handle_grasps.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
@@ -23,19 +22,26 @@ namespace {
 
 constexpr const char* kSolidFile = "solid.obj";
 
-// The files of the grasps of an asset.
-struct GraspOutput {
-  fs::path file, picture;
-};
+void RequireAsset(const fs::path& folder) {
+  if (assets::IsAssetFolder(folder)) return;
+  throw core::Error("holds no asset.json", folder.string(),
+                    "give a folder made by `simwright lift`, `import` or `library`");
+}
 
+// Returns the files to write and the picture beside the first.
 GraspOutput OutputOf(const GraspRequest& request, const fs::path& asset,
                      manipulation::GraspFormat format) {
   GraspOutput output;
+  output.format = format;
   output.file = request.output.empty() ? asset / ("grasps" + manipulation::GraspExtension(format))
                                        : request.output;
   output.picture = output.file;
   output.picture.replace_extension(".png");
-  for (const fs::path& file : {output.file, output.picture}) {
+  std::vector<fs::path> files = manipulation::GraspFiles(
+      format, output.file,
+      assets::IsArticulatedAssetFolder(asset) ? HandleLinks(asset) : std::vector<std::string>());
+  files.push_back(output.picture);
+  for (const fs::path& file : files) {
     if (fs::exists(file) && !request.force) {
       throw core::Error("the file exists", file.string(), "use --force to replace it");
     }
@@ -46,20 +52,9 @@ GraspOutput OutputOf(const GraspRequest& request, const fs::path& asset,
   return output;
 }
 
-void RequireRigid(const fs::path& folder) {
-  if (!assets::IsAssetFolder(folder)) {
-    throw core::Error("holds no asset.json", folder.string(),
-                      "give a folder made by `simwright lift`, `import` or `library`");
-  }
-  if (assets::IsArticulatedAssetFolder(folder)) {
-    throw core::Error("is an articulated asset", folder.string(),
-                      "grasps are made for rigid assets; tasks find the handles of others");
-  }
-}
-
 GraspReport GraspsOf(const fs::path& folder, const manipulation::ParallelGripper& gripper,
                      const GraspRequest& request, const GraspOutput& output,
-                     manipulation::GraspFormat format, core::Progress* progress) {
+                     core::Progress* progress) {
   GraspReport report;
   const assets::Asset asset = assets::ReadAsset(folder);
   report.asset = asset.name;
@@ -78,16 +73,8 @@ GraspReport GraspsOf(const fs::path& folder, const manipulation::ParallelGripper
   report.set = manipulation::MakeGraspSet(object, kSolidFile, gripper, proved);
   report.seconds = core::SecondsSince(start);
   if (report.set.grasps.empty()) {
-    std::string most = "none held";
-    int count = 0;
-    for (const auto& [reason, times] : proved.failures) {
-      if (times <= count) continue;
-      count = times;
-      most = "most often: " + reason;
-    }
-    throw core::Error("no grasp: none of " + std::to_string(proved.tried) +
-                          " candidates holds in both engines; " + most,
-                      asset.name, "use another gripper, or more candidates with a larger --count");
+    throw core::Error("no grasp: " + proved.WhyNone(gripper.model), asset.name,
+                      "use another gripper, or more candidates with a larger --count");
   }
   if (static_cast<int>(report.set.grasps.size()) < request.count) {
     report.findings.push_back({"grasps-fewer", core::Severity::kInfo, asset.name,
@@ -96,9 +83,10 @@ GraspReport GraspsOf(const fs::path& folder, const manipulation::ParallelGripper
                                    " wanted",
                                static_cast<double>(report.set.grasps.size())});
   }
-  core::WritePng(output.picture, GraspPreview(asset, report.set));
-  manipulation::WriteGrasps(report.set, asset, format, output.file);
-  report.file = output.file;
+  core::WritePng(output.picture, GraspPreview(asset.visual, report.set));
+  report.files =
+      manipulation::WriteGrasps(report.set, {{"", asset.inertial}}, output.format, output.file);
+  report.file = report.files.front();
   report.picture = output.picture;
   return report;
 }
@@ -129,14 +117,15 @@ std::vector<GraspReport> MakeGrasps(const GraspRequest& request, core::Progress*
   const manipulation::ParallelGripper gripper = manipulation::ReadGripper(request.gripper);
   std::vector<GraspOutput> outputs;
   for (const fs::path& folder : request.assets) {
-    RequireRigid(folder);
+    RequireAsset(folder);
     outputs.push_back(OutputOf(request, folder, format));
   }
   std::vector<GraspReport> reports;
   for (size_t i = 0; i < request.assets.size(); ++i) {
     try {
-      reports.push_back(
-          GraspsOf(request.assets[i], gripper, request, outputs[i], format, progress));
+      const bool articulated = assets::IsArticulatedAssetFolder(request.assets[i]);
+      const auto make = articulated ? HandleGraspsOf : GraspsOf;
+      reports.push_back(make(request.assets[i], gripper, request, outputs[i], progress));
     } catch (const core::Error& error) {
       if (request.assets.size() == 1) throw;
       GraspReport report;
@@ -162,11 +151,16 @@ std::string GraspTable(const std::vector<GraspReport>& reports) {
     double quality = 0.0;
     for (const manipulation::Grasp& grasp : report.set.grasps) quality += grasp.quality;
     quality /= static_cast<double>(report.set.grasps.size());
+    std::string joints;
+    if (!report.set.joint_proofs.empty()) {
+      joints = " for " + std::to_string(GrippedJoints(report.set)) + " of " +
+               std::to_string(report.set.joint_proofs.size()) + " joints";
+    }
     char line[600];
     std::snprintf(line, sizeof(line),
-                  "written  %s  %zu grasps, quality %.2f, coverage %.0f %%; of %d tried %d held in "
-                  "Bullet, %.0f %% of these in MuJoCo  (%.1f s)\n",
-                  report.file.string().c_str(), report.set.grasps.size(), quality,
+                  "written  %s  %zu grasps%s, quality %.2f, coverage %.0f %%; of %d tried %d held "
+                  "in Bullet, %.0f %% of these in MuJoCo  (%.1f s)\n",
+                  report.file.string().c_str(), report.set.grasps.size(), joints.c_str(), quality,
                   100.0 * report.set.coverage, report.set.tried, report.set.held_in_bullet,
                   report.set.held_in_bullet > 0
                       ? 100.0 * report.set.held_in_both / report.set.held_in_bullet
@@ -194,6 +188,16 @@ std::string GraspReportsJson(const std::vector<GraspReport>& reports) {
       one["held_in_bullet"] = report.set.held_in_bullet;
       one["held_in_both"] = report.set.held_in_both;
       one["coverage"] = report.set.coverage;
+      for (const fs::path& file : report.files) one["files"].push_back(file.string());
+      for (const manipulation::JointProof& proof : report.set.joint_proofs) {
+        one["joints"].push_back({{"joint", proof.joint},
+                                 {"link", proof.link},
+                                 {"grasps", proof.grasps},
+                                 {"tried", proof.tried},
+                                 {"held_in_bullet", proof.held_in_bullet},
+                                 {"held_in_both", proof.held_in_both},
+                                 {"reason", proof.reason}});
+      }
     }
     json["assets"].push_back(one);
   }

@@ -134,7 +134,9 @@ std::vector<PickTestRow> RunPickTest(const PickTestRequest& request, core::Progr
     row.poses = request.poses;
     rows.push_back(row);
   }
-  const certificate::Planner planner(robot::Panda(false), {}, request.seed);
+  certificate::GraspOptions grasps;
+  grasps.proved_alone = true;
+  const certificate::Planner planner(robot::Panda(false), grasps, request.seed);
   const auto table = PickTable();
   const int picks = static_cast<int>(objects.size()) * request.poses;
   std::vector<std::string> proved(static_cast<size_t>(picks)), sampled = proved;

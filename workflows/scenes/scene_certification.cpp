@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr size_t kPicturedScenes = 4;
+constexpr const char* kNoGrasps = "none";  // SceneCertificationRequest::grasps
 
 // Returns the categories that are furniture in any scene type.
 std::set<std::string> FurnitureCategories() {
@@ -38,6 +39,21 @@ std::set<std::string> FurnitureCategories() {
     }
   }
   return furniture;
+}
+
+certificate::ProvedGraspFiles GraspFilesOf(const SceneCertificationRequest& request) {
+  certificate::ProvedGraspFiles files;
+  if (request.grasps == kNoGrasps) {
+    files.use = false;
+  } else if (!request.grasps.empty()) {
+    files.folder = request.grasps;
+    if (!fs::is_directory(files.folder)) {
+      throw core::Error("is no folder of grasps", request.grasps,
+                        "give a folder with NAME/grasps.json or NAME.json for each asset folder "
+                        "NAME, or none");
+    }
+  }
+  return files;
 }
 
 // The scenes of a source with their assets.
@@ -65,7 +81,7 @@ class CertificationScenes {
       }
     }
     assets_ = scene::ReadAssetSet(folders);
-    bodies_ = std::make_unique<certificate::SceneBodies>(assets_);
+    bodies_ = std::make_unique<certificate::SceneBodies>(assets_, GraspFilesOf(request));
   }
 
   size_t size() const { return source_.scenes.size(); }
@@ -85,6 +101,28 @@ class CertificationScenes {
       }
     }
     return {names.begin(), names.end()};
+  }
+
+  // Returns a note on the free objects whose assets have no proved grasps; none if all have.
+  core::Findings MissingGrasps() const {
+    std::set<std::string> missing;
+    int objects = 0, without = 0;
+    for (const auto& scene : objects_) {
+      for (const scene::SceneObject& object : scene) {
+        if (object.welded) continue;
+        ++objects;
+        if (!bodies_->At(object.category)->grasps.empty()) continue;
+        ++without;
+        missing.insert(scene::NameOfCategory(object.category));
+      }
+    }
+    if (without == 0) return {};
+    std::string names;
+    for (const std::string& name : missing) names += (names.empty() ? "" : ", ") + name;
+    return {{"certify-sampled-grasps", core::Severity::kInfo, source_.scenes.front().name,
+             std::to_string(without) + " of " + std::to_string(objects) +
+                 " objects have no proved grasps (" + names + "): the planner samples its own",
+             static_cast<double>(without), "make them with `simwright grasps`"}};
   }
 
   // Returns the free objects of scene `i` that a reference may mean.
@@ -159,6 +197,10 @@ class Certification {
     report_.output = request.output;
     task_ = ReadCertifyTask(request.task, KnownNames(scenes_), &report_.findings);
     report_.task = task_.Text();
+    if (request.grasps != kNoGrasps) {
+      const core::Findings missing = scenes_.MissingGrasps();
+      report_.findings.insert(report_.findings.end(), missing.begin(), missing.end());
+    }
     RequireObjects(scenes_, task_.object, request.scene);
     if (task_.kind == CertifyKind::kBeside) RequireObjects(scenes_, task_.other, request.scene);
   }
