@@ -17,7 +17,7 @@ namespace simwright::certificate {
 // Where the proved grasps of bodies are.
 struct ProvedGraspFiles {
   bool use = true;
-  // Of an asset whose folder is called NAME: FOLDER/NAME/grasps.json or FOLDER/NAME.json. Empty:
+  // The folder of NAME/grasps.json or NAME.json for an asset whose own folder is called NAME; empty:
   // grasps.json in the asset's own folder.
   std::filesystem::path folder = {};
   std::string gripper = "panda";  // grasps of other grippers are left out
