@@ -17,8 +17,8 @@ namespace simwright::certificate {
 // Where the proved grasps of bodies are.
 struct ProvedGraspFiles {
   bool use = true;
-  // The folder of NAME/grasps.json or NAME.json for an asset whose own folder is called NAME; empty:
-  // grasps.json in the asset's own folder.
+  // The folder of NAME/grasps.json or NAME.json for an asset whose own folder is called NAME;
+  // empty: grasps.json in the asset's own folder.
   std::filesystem::path folder = {};
   std::string gripper = "panda";  // grasps of other grippers are left out
 };

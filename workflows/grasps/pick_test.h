@@ -24,8 +24,9 @@ struct PickTestRow {
   int poses = 0;
   int with_proved = 0;   // grasps of grasps.json
   int with_sampled = 0;  // antipodal grasps that the planner samples itself
-  // Of `poses` episodes of the scripted expert of skills (skills/scripted_expert.h), which picks
-  // the object up from the floor to a goal above it, with the randomization of an evaluation.
+  // Successes of `poses` episodes of the scripted expert of skills (skills/scripted_expert.h),
+  // which picks the object up from the floor to a goal above it, with the randomization of an
+  // evaluation.
   int expert_proved = 0;      // by the grasps of grasps.json
   int expert_from_above = 0;  // across the object's thin side, from above
   std::string failure;        // of the last failed pick with proved grasps; or empty
