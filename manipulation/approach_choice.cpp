@@ -1,6 +1,8 @@
 #include "manipulation/approach_choice.h"
 
 #include <algorithm>
+#include <numbers>
+#include <tuple>
 
 #include "manipulation/gripper_penetration.h"
 
@@ -14,6 +16,9 @@ constexpr double kSpacing = 0.01;              // m between the sampled points o
 constexpr double kLargestPenetration = 0.008;  // m: a deeper penetration blocks the approach
 constexpr double kSuccessShare = 0.8;  // share of a joint's range at which its tasks succeed
 constexpr double kBackwards = 0.75;  // of the tool's axis, back at the robot: beyond an arm's reach
+constexpr double kAlike = std::numbers::pi / 6.0;  // rad between an approach and a grasp like it
+constexpr double kShallower = 0.003;        // m: a pull slides off fingertips, and not off pads
+constexpr size_t kMostAlike = 4;            // grasps: the gripper is checked at each
 constexpr double kApproachFromBelow = 0.7;  // of the tool's axis, upwards
 
 // The quality of an approach over the joint's motion.
@@ -57,6 +62,31 @@ Fit FitOf(const Isometry3d& link_from_grasp, const SurfacePoints& hand,
 }
 
 }  // namespace
+
+std::vector<Isometry3d> WithProvedGrasps(const std::vector<Isometry3d>& approaches,
+                                         const std::vector<Grasp>& grasps) {
+  std::vector<Isometry3d> all;
+  std::vector<bool> used(grasps.size());
+  for (const Isometry3d& approach : approaches) {
+    std::vector<std::tuple<double, double, size_t>> alike;
+    for (size_t i = 0; i < grasps.size(); ++i) {
+      const Isometry3d& tool = grasps[i].object_from_tool;
+      const double deeper =
+          (tool.translation() - approach.translation()).dot(approach.linear().col(2));
+      if (used[i] || GraspAngle(approach, tool) > kAlike || deeper < -kShallower) continue;
+      alike.emplace_back(-grasps[i].quality, (tool.translation() - approach.translation()).norm(),
+                         i);
+    }
+    std::sort(alike.begin(), alike.end());
+    if (alike.size() > kMostAlike) alike.resize(kMostAlike);
+    for (const auto& [quality, distance, index] : alike) {
+      used[index] = true;
+      all.push_back(grasps[index].object_from_tool);
+    }
+    all.push_back(approach);
+  }
+  return all;
+}
 
 Isometry3d ChooseApproach(const robot::RobotModel& robot, const Interaction& interaction) {
   const SurfacePoints hand = GripperSurface(robot, kSpacing);

@@ -30,8 +30,9 @@ struct InteractionTarget {
   // The distance (m) along tool y from the origin of `link_from_grasp` to the grasp point on the
   // wall of a vessel that is too wide for the gripper. 0: the object is grasped in its middle.
   double rim = 0.0;
-  // The proved grasps of a free object (docs/grasps.md), in the object's frame. Empty: none are
-  // known, or the object is not grasped.
+  // The proved grasps (docs/grasps.md) of a free object, in its frame, or of the part that the
+  // joint moves, in its link's frame; the latter are among `approaches`. Empty: none are known, or
+  // the target is not grasped.
   std::vector<Grasp> grasps;
 };
 

@@ -98,12 +98,27 @@ void FindTarget(double opening, SkillVariant* variant) {
   }
 }
 
-// Writes the proved grasps of an object that is grasped.
+// Writes the proved grasps of an object that is grasped, or puts those of a sliding part among its
+// approaches. A part that rotates is taken by its natural approach: fingers deep behind its handle
+// hook it, while those of a proved grasp may slip as they pull (docs/skills.md).
 void FindGrasps(const SkillSubtask& source, SkillVariant* variant) {
-  if (!variant->target || variant->target->joint >= 0 || !variant->asks_for_grasp) return;
-  const auto object = static_cast<size_t>(variant->target->object);
-  const auto known = source.grasps.find(variant->model.objects[object].name);
-  if (known != source.grasps.end()) variant->target->grasps = known->second;
+  if (!variant->target || variant->target->pushes) return;
+  manipulation::InteractionTarget& target = *variant->target;
+  const tasks::ArticulatedObject& object =
+      variant->model.objects[static_cast<size_t>(target.object)];
+  const auto known = source.grasps.find(object.name);
+  if (known == source.grasps.end()) return;
+  if (target.joint < 0) {
+    if (variant->asks_for_grasp && !object.articulated()) target.grasps = known->second;
+    return;
+  }
+  const tasks::ObjectJoint& joint = object.joints[static_cast<size_t>(target.joint)];
+  if (joint.type != reward::RewardJointType::kPrismatic) return;
+  for (const manipulation::Grasp& grasp : known->second) {
+    const bool same_part = grasp.joint == joint.name && grasp.link == object.LinkName(target.link);
+    if (same_part) target.grasps.push_back(grasp);
+  }
+  target.approaches = manipulation::WithProvedGrasps(target.approaches, target.grasps);
 }
 
 // Returns SkillVariant::next.

@@ -23,8 +23,8 @@ namespace simwright::skills {
 // A subtask and the assets that it names.
 struct SkillSubtask {
   std::vector<assets::SemanticModel> assets;
-  // The proved grasps of rigid assets by the robot's gripper, by name of the asset; in the asset's
-  // frame.
+  // The proved grasps of assets by the robot's gripper, by name of the asset; in the frame of the
+  // asset, or of the link of an articulated one.
   std::map<std::string, std::vector<manipulation::Grasp>> grasps;
   tasks::Subtask subtask;
   std::optional<tasks::Subtask> next;  // the next subtask of the task

@@ -48,6 +48,36 @@ Vector3d ApproachOf(const skills::Skill& skill) {
   return GraspPoseAtJoint(variant.model, variant.start, *variant.target).linear().col(2);
 }
 
+Grasp GraspAt(const Isometry3d& tool, double quality) {
+  Grasp grasp;
+  grasp.object_from_tool = tool;
+  grasp.quality = quality;
+  return grasp;
+}
+
+TEST(WithProvedGrasps, ComeBeforeTheApproachThatTheyAreLike) {
+  const Isometry3d first = Isometry3d::Identity();  // along z
+  Isometry3d second = Isometry3d::Identity();       // along x
+  second.linear() = Eigen::AngleAxisd(1.57, Vector3d::UnitY()).toRotationMatrix();
+  const auto moved = [](const Isometry3d& tool, const Vector3d& by, double turn) {
+    Isometry3d other = tool;
+    other.translate(by);
+    other.rotate(Eigen::AngleAxisd(turn, Vector3d::UnitX()));
+    return other;
+  };
+  const std::vector<Grasp> grasps = {
+      GraspAt(moved(second, {0.0, 0.02, 0.0}, 0.0), 0.6),
+      GraspAt(moved(first, {0.01, 0.0, 0.0}, 0.2), 0.5),
+      GraspAt(moved(first, {0.02, 0.0, 0.0}, 0.2), 1.0),
+      GraspAt(moved(first, {0.0, 0.0, -0.01}, 0.0), 1.0),  // 1 cm shallower
+      GraspAt(moved(first, {0.0, 0.0, 0.0}, 0.8), 1.0)};   // 46 degrees off both
+  const std::vector<Isometry3d> all = WithProvedGrasps({first, second}, grasps);
+  ASSERT_EQ(all.size(), 5u);
+  const Isometry3d* expected[] = {&grasps[2].object_from_tool, &grasps[1].object_from_tool, &first,
+                                  &grasps[0].object_from_tool, &second};
+  for (size_t i = 0; i < all.size(); ++i) EXPECT_TRUE(all[i].isApprox(*expected[i], 1e-12)) << i;
+}
+
 TEST(ChooseApproach, AKnobBesideATallSpoutIsTakenFromAbove) {
   // The knob stands on a deck, lower than the middle of the whole: outwards along its axis from
   // there is down, into the deck.
