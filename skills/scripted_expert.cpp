@@ -19,11 +19,11 @@ using Eigen::Vector3d;
 // The fingers close within the first deviation from the target and open again beyond the second: a
 // part that yields between the fingers is not lost.
 constexpr double kScriptedExpertNear = 0.03, kLost = 0.045;  // m
-// The least of the first deviation. It shrinks with the opening: fingers that are nearly closed would
-// close above a thin object.
-constexpr double kNarrowNear = 0.012;  // m
-constexpr double kAligned = 0.3, kTwisted = 0.8;             // rad
-constexpr double kGripGain = 3.0;  // of the finger command, over the deviation
+// The least of the first deviation. It shrinks with the opening: fingers that are nearly closed
+// would close above a thin object.
+constexpr double kNarrowNear = 0.012;             // m
+constexpr double kAligned = 0.3, kTwisted = 0.8;  // rad
+constexpr double kGripGain = 3.0;                 // of the finger command, over the deviation
 // The deviation, relative to that at which the fingers open again, up to which the gripper pulls. A
 // pull that weakened before that would hold fingers that have slipped off in place forever.
 constexpr double kLargestPullDeviation = 1.5;
