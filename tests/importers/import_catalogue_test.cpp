@@ -1,6 +1,6 @@
-// Pieces of the CC0 catalogue become assets of the catalogue's size that pass their check: three, at
-// one and three and five sixths of the list, or as many as SIMWRIGHT_CATALOGUE_PIECES says, evenly
-// spaced. For all 175: `simwright import` on the catalogue, see docs/figures.md.
+// Pieces of the CC0 catalogue become assets of the catalogue's size that pass their check: three,
+// at one and three and five sixths of the list, or as many as SIMWRIGHT_CATALOGUE_PIECES says,
+// evenly spaced. For all 175: `simwright import` on the catalogue, see docs/figures.md.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
