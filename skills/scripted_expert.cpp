@@ -148,6 +148,7 @@ double OpeningForPart(const ExpertInput& input) {
 // Returns the finger command for an `opening` (m): `grip`, which opens, unless that is too wide.
 double OpenTo(double opening, double grip, const ExpertInput& input) {
   const double share = opening / input.widest;
+  if (share >= 1.0) return grip;
   return std::min(grip, std::clamp(kGripGain * (share - input.commanded), -1.0, 1.0));
 }
 
