@@ -71,7 +71,8 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option_function<std::string>(
           "--grasps",
           [request](const std::string& name) { request->proved_grasps = name == "proved"; },
-          "How rigid objects are grasped: by the proved grasps of their grasps.json, where there\n"
+          "How objects and sliding parts are grasped: by the proved grasps of their grasps.json, "
+          "where there\n"
           "is one (proved; see `simwright grasps`), or from above (above)")
       ->check(CLI::IsMember({"proved", "above"}))
       ->default_str("proved");

@@ -55,10 +55,11 @@ std::string ContentHash(std::string_view bytes) {
   return text;
 }
 
-std::string ContentHashOf(const fs::path& path) {
+std::string ContentHashOf(const fs::path& path, bool (*leaves_out)(const fs::path& file)) {
   if (!fs::is_directory(path)) return ContentHash(ReadFile(path));
   std::string listing;
   for (const fs::path& file : FilesIn(path)) {
+    if (leaves_out != nullptr && leaves_out(file)) continue;
     listing += ContentHash(ReadFile(file)) + " " + file.lexically_relative(path).string() + "\n";
   }
   return ContentHash(listing);

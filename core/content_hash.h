@@ -11,8 +11,10 @@ namespace simwright::core {
 std::string ContentHash(std::string_view bytes);
 
 // Returns the hash of a file's contents, or, for a folder, the hash over the relative names and
-// hashes of all files in it and its subfolders, in order of their names. Links to folders are not
-// followed. Throws core::Error if something cannot be read.
-std::string ContentHashOf(const std::filesystem::path& path);
+// hashes of all files in it and its subfolders, in order of their names, except those for which
+// `leaves_out` is true. Links to folders are not followed. Throws core::Error if something cannot
+// be read.
+std::string ContentHashOf(const std::filesystem::path& path,
+                          bool (*leaves_out)(const std::filesystem::path& file) = nullptr);
 
 }  // namespace simwright::core

@@ -92,11 +92,11 @@ class Omissions {
                            "velocity>; asset.json has all values"});
     }
     if (raised_ > 0) {
-      findings->push_back(
-          {"joint-friction-raised", core::Severity::kWarning, asset,
-           "friction was raised so that the joint holds against gravity: " + raises_ +
-               More(raised_),
-           static_cast<double>(raised_), "state a friction above the joint's gravity load"});
+      findings->push_back({"joint-friction-raised", core::Severity::kWarning, asset,
+                           "friction was raised so that the joint holds against gravity: " +
+                               raises_ + More(raised_),
+                           static_cast<double>(raised_),
+                           "state a friction of at least 1.3 times the joint's gravity load"});
     }
   }
 

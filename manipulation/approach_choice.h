@@ -8,8 +8,8 @@
 namespace simwright::manipulation {
 
 // Returns `approaches`, the most natural first, each after the proved grasps that are like it:
-// within 30 degrees and not shallower, the best quality and then the nearest first, at most four.
-// Frames: the link's.
+// within 30 degrees and at most 3 mm shallower, the best quality and then the nearest first, at
+// most four. Frames: the link's.
 std::vector<Eigen::Isometry3d> WithProvedGrasps(const std::vector<Eigen::Isometry3d>& approaches,
                                                 const std::vector<Grasp>& grasps);
 

@@ -17,7 +17,9 @@ using Eigen::Vector3d;
 
 constexpr const char* kGraspFormat = "simwright_grasps";
 constexpr std::uint64_t kMostBytes = 256ull << 20;
-constexpr double kRigid = 1e-6;     // of a rotation matrix
+constexpr double kRigid = 1e-6;    // of a rotation matrix
+constexpr double kFarthest = 1e3;  // m
+constexpr size_t kMostGrasps = 100000;
 constexpr double kSamePose = 1e-4;  // of equal poses of a gripper's base link, m and rad
 
 core::OrderedJson VectorJson(const Vector3d& vector) {
@@ -124,6 +126,7 @@ GraspSet SetOf(const std::string& object, const std::string& file, const Paralle
 
 std::vector<Grasp> GraspsFrom(const core::JsonField& grasps) {
   const std::vector<core::JsonField> tools = grasps["tool_transforms"].Elements();
+  if (tools.size() > kMostGrasps) grasps["tool_transforms"].Fail("has more than 100000 grasps");
   const std::vector<double> quality = grasps["quality"].Numbers(tools.size());
   const std::vector<double> widths = grasps["width_m"].Numbers(tools.size());
   const std::vector<double> openings = grasps["opening_m"].Numbers(tools.size());
@@ -143,16 +146,30 @@ std::vector<Grasp> GraspsFrom(const core::JsonField& grasps) {
     grasp.object_from_tool = PoseFrom(tools[i]);
     grasp.quality = quality[i];
     grasp.width = widths[i];
+    if (!(grasp.quality >= 0.0) || grasp.quality > 1.0) grasps["quality"].Fail("is not 0 to 1");
+    if (!(grasp.width > 0.0) || grasp.width > kFarthest) {
+      grasps["width_m"].Fail("has a width that is not positive");
+    }
     if (articulated) {
       grasp.link = links[i].Name();
       grasp.joint = joints[i].Name();
+      if (grasp.link.empty() || grasp.joint.empty()) links[i].Fail("or its joint has no name");
     }
     grasp.opening = openings[i];
+    if (!(grasp.opening > 0.0) || grasp.opening > kFarthest) {
+      grasps["opening_m"].Fail("has an opening that is not positive");
+    }
     const std::vector<core::JsonField> points = contacts[i].Elements(2);
     const std::vector<core::JsonField> outward = normals[i].Elements(2);
     for (size_t c = 0; c < 2; ++c) {
       grasp.contacts[c] = points[c].Vector<3>();
       grasp.normals[c] = outward[c].Vector<3>();
+      const double farthest =
+          std::max(grasp.contacts[c].cwiseAbs().maxCoeff(), grasp.normals[c].cwiseAbs().maxCoeff());
+      if (farthest > kFarthest) contacts[i].Fail("is farther than 1 km");
+    }
+    if (grasp.object_from_tool.translation().cwiseAbs().maxCoeff() > kFarthest) {
+      tools[i].Fail("is farther than 1 km");
     }
     all.push_back(std::move(grasp));
   }

@@ -33,7 +33,7 @@ double CenterOffset(const Grasp& grasp, const Eigen::Vector3d& center);
 // Returns indices into InteractionTarget::grasps, the most promising first, at most 12: grasps that
 // an arm may approach from where the object is, and that clear its support if the object stands
 // upright. Grasps within 2 cm and 30 degrees of a better one are left out. Empty if the target has
-// no grasps, or moves by a joint.
+// no grasps, moves by a joint, or is pushed.
 std::vector<int> RankGrasps(const Interaction& interaction, const tasks::WorldState& state);
 
 }  // namespace simwright::manipulation

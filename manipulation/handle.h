@@ -15,7 +15,7 @@ struct Handle {
   // The link as an object of grasps, in its own frame at rest: other links are obstacles at rest,
   // and those that the joint does not move also where the joint is at 40 % and 80 % of its range.
   GraspObject object;
-  std::string reason;  // why no hand can take it, e.g. "follows slide"; then `object` is unset
+  std::string reason;  // why no hand can take it, e.g. "it follows slide"; then `object` is unset
 };
 
 // Returns a handle for each movable joint of an asset, by tasks::ObjectJoint::grasp_link: the

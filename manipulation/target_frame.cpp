@@ -52,7 +52,9 @@ TargetFrame::TargetFrame(const Interaction& interaction, const tasks::WorldState
   if (!interaction_.target) return;
   (Pushes(interaction_) ? lean_ : pitch_) = pitch;
   // An object that is held by one of its grasps keeps its pose in the gripper.
-  const bool keeps = interaction_.starts_held && !interaction_.target->grasps.empty();
+  const bool keeps = grasp_ < 0 && interaction_.starts_held && interaction_.target->joint < 0 &&
+                     !interaction_.target->grasps.empty() && state.grasped &&
+                     state.touched == interaction_.target->object;
   world_from_target_ =
       keeps ? state.gripper : GraspPose(interaction_, state, across_, pitch_, grasp_);
   across_ = world_from_target_.linear().col(1);

@@ -86,8 +86,9 @@ ExpertInput InputOf(const Episode& episode) {
 double Deviation(const ExpertInput& input) {
   const double share = input.opening / input.widest;
   const double near = std::max(kNarrowNear, share * kScriptedExpertNear);
-  const double distance = kLost + std::min(1.0, input.commanded / share) * (near - kLost);
-  const double angle = kTwisted + input.commanded * (kAligned - kTwisted);
+  const double open = std::min(1.0, input.commanded / share);
+  const double distance = kLost + open * (near - kLost);
+  const double angle = kTwisted + open * (kAligned - kTwisted);
   return std::max(input.off.norm() / distance, input.angle / angle);
 }
 
@@ -147,7 +148,8 @@ double OpeningForPart(const ExpertInput& input) {
 // Returns the finger command for an `opening` (m): `grip`, which opens, unless that is too wide.
 double OpenTo(double opening, double grip, const ExpertInput& input) {
   const double share = opening / input.widest;
-  return share < 1.0 ? std::clamp(kGripGain * (share - input.commanded), -1.0, 1.0) : grip;
+  if (share >= 1.0) return grip;
+  return std::min(grip, std::clamp(kGripGain * (share - input.commanded), -1.0, 1.0));
 }
 
 void ManipulatePart(const ExpertInput& input, float* action) {

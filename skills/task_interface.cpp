@@ -91,8 +91,11 @@ OrderedJson TargetJson(const Skill& skill, const SkillVariant& variant, const Ta
   const assets::TreeBody& body = BodyNamed(world, known.name);
   const Eigen::Isometry3d grasp =
       robot::ForwardKinematics(skill.robot->arm, start.grasp_configuration);
+  // The gripper of a start state is not where the robot of the world is.
+  tasks::WorldState state = start.state;
+  state.grasped = false;
   const manipulation::TargetFrame frame(
-      variant, start.state, variant.subtask.start.world_from_robot.linear() * grasp.linear().col(1),
+      variant, state, variant.subtask.start.world_from_robot.linear() * grasp.linear().col(1),
       start.pitch, start.retreat, start.grasp);
   // A part's frame moves with its link, a free object's with the object.
   const auto link = static_cast<size_t>(target.joint >= 0 ? target.link : 0);

@@ -97,7 +97,7 @@ void BindPreparedTask(nb::module_& module) {
       .def_rw("finger_friction", &TaskSettings::finger_friction,
               "(low, high) of the fingers' coefficient, sampled per episode; None: the robot's")
       .def_rw("proved_grasps", &TaskSettings::proved_grasps,
-              "whether rigid objects are grasped by the grasps of their grasps.json");
+              "whether objects and sliding parts are grasped by their grasps.json");
   nb::class_<PreparedTask>(module, "PreparedTask",
                            "Tasks of a tasks.json, ready to run. Constant and thread-safe.")
       .def(

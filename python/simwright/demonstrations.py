@@ -226,8 +226,10 @@ def _environment(skill: str | None, acting: Any, settings: dict[str, Any],
     except ImportError:
         raise _core.Error("demonstrations: need Gymnasium (in the source folder: "
                           "pip install '.[gym]')") from None
-    action_space = getattr(acting, "metadata", {}).get("action", "focus")
-    settings = {"action_space": action_space, **settings}
+    metadata = getattr(acting, "metadata", None)
+    settings = {"action_space": (metadata or {}).get("action", "focus"), **settings}
+    if metadata is not None:  # a policy grasps as it was trained to
+        settings = {"proved_grasps": metadata.get("proved_grasps") == "true", **settings}
     if acting is None and settings["action_space"] != "focus":
         raise _core.Error(f"policy: the expert acts in the space 'focus', not in "
                           f"'{settings['action_space']}' (leave action_space out)")

@@ -62,8 +62,8 @@ class SkillEnv(Worlds, gymnasium.Env):
         progress: see ``simwright``; making the objects of a cell takes up to a minute once.
         finger_friction (low, high): range of the fingers' friction coefficient, sampled for each
             episode; None: the robot's.
-        proved_grasps (bool): whether rigid objects are grasped by the proved grasps of their
-            grasps.json, where there is one (docs/grasps.md), else from above.
+        proved_grasps (bool): whether objects and sliding parts are grasped by the proved grasps of
+            their grasps.json, where there is one (docs/grasps.md), else from above.
 
     Observations are (O) float32, about 1 in size (docs/skills.md). ``info`` has ``success`` (the
     goal holds now), ``is_success`` (it held for half a second, which ends the episode) and, after a

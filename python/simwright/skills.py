@@ -84,6 +84,8 @@ def evaluate(skill: str, episodes: int = 100, seed: int = 1,
     settings.robot = cell["robot"]
     if acting is not None:
         settings.action_space = acting.metadata.get("action", "focus")
+    # A policy grasps as it was trained to; the expert by all that is known.
+    settings.proved_grasps = acting is None or acting.metadata.get("proved_grasps") == "true"
     task = _core.PreparedTask(str(file), ["*"], settings)
     return cast("_types.Evaluation", _core.evaluate(task, 0, acting, episodes, seed, report))
 

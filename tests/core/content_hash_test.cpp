@@ -30,6 +30,12 @@ TEST(ContentHash, OfAFolderChangesWithEveryNameAndContent) {
   fs::rename(folder.path() / "cup.urdf", folder.path() / "mug.urdf");
   EXPECT_NE(ContentHashOf(folder.path()), before);
   EXPECT_THROW(ContentHashOf(folder.path() / "none"), Error);
+  const auto is_note = [](const std::filesystem::path& file) { return file.stem() == "note"; };
+  const std::string noteless = ContentHashOf(folder.path(), is_note);
+  EXPECT_EQ(noteless, ContentHashOf(folder.path()));
+  WriteFile(folder.path() / "note.txt", "later");
+  EXPECT_EQ(ContentHashOf(folder.path(), is_note), noteless);
+  EXPECT_NE(ContentHashOf(folder.path()), noteless);
 }
 
 }  // namespace

@@ -43,6 +43,17 @@ void ExpectSkillsUseGrasps(const std::string& soap, const fs::path& folder) {
   EXPECT_EQ(GraspCounts(PrepareSkills(run)), expected);
   WriteRun(run);
   EXPECT_TRUE(ReadRun(run.folder).proved_grasps);
+  // A run that does not use grasps stays usable when some are proved later.
+  SkillRun above = run;
+  above.folder = folder / "above";
+  above.proved_grasps = false;
+  WriteRun(above);
+  const fs::path file_of_grasps = fs::path(soap) / manipulation::kGraspFileName;
+  const std::string proved = core::ReadFile(file_of_grasps);
+  core::WriteFile(file_of_grasps, proved + " ");
+  EXPECT_FALSE(ReadRun(above.folder).proved_grasps);
+  EXPECT_THROW(ReadRun(run.folder), core::Error);  // its grasps have changed
+  core::WriteFile(file_of_grasps, proved);
   run.proved_grasps = false;
   EXPECT_TRUE(GraspCounts(PrepareSkills(run)).empty());
   EXPECT_THROW(WriteRun(run), core::Error);  // a run resumes with the settings that it began with

@@ -7,6 +7,7 @@
 #include "core/finding.h"
 #include "manipulation/grasp_file.h"
 #include "robot/robot_model.h"
+#include "tasks/task.h"
 
 namespace simwright::workflows {
 
@@ -20,8 +21,13 @@ std::vector<manipulation::Grasp> GraspsForRobot(const std::filesystem::path& ass
                                                 const robot::RobotModel& robot,
                                                 core::Findings* findings);
 
-// Returns true if a gripper can take the object off the plane on which it stands by one of its
-// proved grasps, false if by none of them; nothing if the asset has no grasps.json.
-std::optional<bool> HasGraspOnSupport(const std::filesystem::path& asset);
+// Returns true if the gripper of `robot` can take the object off the plane on which it stands by
+// one of its proved grasps, false if by none of them; nothing if it has no grasps of this gripper,
+// which is a finding if they are another's.
+std::optional<bool> HasGraspOnSupport(const std::filesystem::path& asset,
+                                      const robot::RobotModel& robot, core::Findings* findings);
+
+// Returns true if an asset of the set has a grasps.json.
+bool AnyAssetHasGrasps(const tasks::TaskSet& set);
 
 }  // namespace simwright::workflows

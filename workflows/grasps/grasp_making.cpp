@@ -37,9 +37,12 @@ GraspOutput OutputOf(const GraspRequest& request, const fs::path& asset,
                                        : request.output;
   output.picture = output.file;
   output.picture.replace_extension(".png");
-  std::vector<fs::path> files = manipulation::GraspFiles(
-      format, output.file,
-      assets::IsArticulatedAssetFolder(asset) ? HandleLinks(asset) : std::vector<std::string>());
+  // These formats have a file for each link.
+  const bool by_link =
+      format == manipulation::GraspFormat::kIsaac || format == manipulation::GraspFormat::kAcronym;
+  std::vector<std::string> links;
+  if (by_link && assets::IsArticulatedAssetFolder(asset)) links = HandleLinks(asset);
+  std::vector<fs::path> files = manipulation::GraspFiles(format, output.file, links);
   files.push_back(output.picture);
   for (const fs::path& file : files) {
     if (fs::exists(file) && !request.force) {

@@ -39,7 +39,9 @@ std::vector<manipulation::ProvedGrasps> ProveHandles(const HandleAsset& asset,
                                                      const GraspRequest& request,
                                                      core::Progress* progress) {
   manipulation::GraspProofOptions options;
-  options.count = std::max(1, request.count / static_cast<int>(asset.handles.size()));
+  const auto gripped = std::count_if(asset.handles.begin(), asset.handles.end(),
+                                     [](const auto& handle) { return handle.reason.empty(); });
+  options.count = std::max(1, request.count / std::max(1, static_cast<int>(gripped)));
   std::vector<manipulation::ProvedGrasps> proofs;
   for (const manipulation::Handle& handle : asset.handles) {
     proofs.emplace_back();
@@ -53,6 +55,7 @@ std::vector<manipulation::ProvedGrasps> ProveHandles(const HandleAsset& asset,
 std::map<std::string, GraspedLinkView> LinkViews(const HandleAsset& asset) {
   std::map<std::string, GraspedLinkView> views;
   for (const manipulation::Handle& handle : asset.handles) {
+    if (!handle.object.part) continue;
     for (const assets::ArticulatedLink& link : asset.asset.links) {
       if (link.name != handle.link) continue;
       views[link.name] = {link.visual, handle.object.support_from_object};

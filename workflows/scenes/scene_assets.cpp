@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "library/rigid/rigid_kinds.h"
+#include "manipulation/grasp_file.h"
 #include "scene/dataset/shard_claim.h"
 #include "workflows/library/library.h"
 
@@ -35,13 +36,23 @@ Named KindOfSlot(const std::string& category) {
   return {category.substr(0, bar), static_cast<std::uint64_t>(category.back() - '0')};
 }
 
+// Copies grasps that were proved after the asset was copied.
+void CopyGrasps(const fs::path& from, const fs::path& to) {
+  const fs::path source = from / manipulation::kGraspFileName;
+  if (!fs::is_regular_file(source) || fs::equivalent(from, to)) return;
+  core::WriteFile(to / manipulation::kGraspFileName, core::ReadFile(source));
+}
+
 void Copy(const fs::path& from, const fs::path& to) {
   if (!assets::IsAssetFolder(from)) {
     throw core::Error("this is not an asset folder", from.string(),
                       "make one with `simwright lift`, `import` or `library`");
   }
   if (fs::exists(to)) {
-    if (core::ContentHashOf(to / "asset.json") == core::ContentHashOf(from / "asset.json")) return;
+    if (core::ContentHashOf(to / "asset.json") == core::ContentHashOf(from / "asset.json")) {
+      CopyGrasps(from, to);
+      return;
+    }
     throw core::Error("another asset is already used for this category", to.string(),
                       "generate into a new folder");
   }

@@ -43,7 +43,7 @@ core::Json RunJson(const SkillRun& run) {
   text["episode_seconds"] = run.options.episode_seconds;
   text["discount"] = run.options.discount;
   text["action"] = skills::NameOf(run.options.action);
-  text["proved_grasps"] = run.proved_grasps;
+  if (run.proved_grasps) text["proved_grasps"] = true;
   if (run.options.finger_friction) {
     text["finger_friction"] = {run.options.finger_friction->low, run.options.finger_friction->high};
   }
@@ -80,14 +80,26 @@ std::map<std::string, TaskObject> ReadTaskObjects(const tasks::TaskSet& set,
   return objects;
 }
 
-std::vector<std::string> HashesOf(const tasks::TaskSet& set) {
+// Returns true for the files that `simwright grasps` adds to an asset.
+bool IsGraspFile(const fs::path& file) {
+  return file.stem().string().starts_with("grasps");
+}
+
+// Returns the content hashes of the run's assets. Grasps count only if the run uses them: proving
+// some later leaves other runs usable.
+std::vector<std::string> HashesOf(const SkillRun& run) {
   std::vector<std::string> hashes;
-  for (const tasks::TaskAsset& asset : set.assets) {
+  for (const tasks::TaskAsset& asset : run.set.assets) {
     if (!fs::exists(asset.path)) {
       throw core::Error("the asset '" + asset.name + "' no longer exists", asset.path,
                         "restore it, or train again");
     }
-    hashes.push_back(core::ContentHashOf(asset.path));
+    std::string hash = core::ContentHashOf(asset.path, IsGraspFile);
+    const fs::path grasps = fs::path(asset.path) / manipulation::kGraspFileName;
+    if (run.proved_grasps && fs::is_regular_file(grasps)) {
+      hash = core::ContentHash(hash + core::ContentHashOf(grasps));
+    }
+    hashes.push_back(hash);
   }
   return hashes;
 }
@@ -139,13 +151,15 @@ tasks::TaskSet ChooseTasks(const tasks::TaskSet& set, const std::vector<std::str
 
 void WriteRun(const SkillRun& given) {
   SkillRun run = given;
-  run.hashes = HashesOf(run.set);
+  run.hashes = HashesOf(run);
   const fs::path file = run.folder / kRunFile;
   const std::string text = core::JsonText(RunJson(run));
   if (fs::exists(file)) {
     if (core::ReadFile(file) != text) {
       throw core::Error("the folder has a run with other tasks, assets or options",
-                        run.folder.string(), "give another folder");
+                        run.folder.string(),
+                        "give another folder, or the options of the first call (an asset that got "
+                        "a grasps.json since then: --grasps above)");
     }
     return;
   }
@@ -177,7 +191,7 @@ SkillRun ReadRun(const fs::path& folder) {
   run.proved_grasps = text.Has("proved_grasps") && text["proved_grasps"].Flag();
   run.options.finger_friction = FingerFrictionOf(text);
   run.set = tasks::ReadTaskFile(folder / kTasksFile);
-  const std::vector<std::string> now = HashesOf(run.set);
+  const std::vector<std::string> now = HashesOf(run);
   for (size_t i = 0; i < now.size(); ++i) {
     if (i < run.hashes.size() && now[i] == run.hashes[i]) continue;
     throw core::Error("the asset '" + run.set.assets[i].name + "' has changed since the training",

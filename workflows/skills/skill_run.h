@@ -23,8 +23,8 @@ struct SkillRun {
   std::vector<std::string> hashes;  // content hashes of set.assets at the start of the run
   std::string robot = "panda";      // panda, panda_on_base, or a URDF with its side file
   skills::SkillOptions options;
-  // True if rigid objects are grasped by the proved grasps of their grasps.json, where they have
-  // one (docs/grasps.md); else from above.
+  // True if rigid objects and sliding parts are grasped by the proved grasps of their grasps.json,
+  // where they have one (docs/grasps.md); else from above.
   bool proved_grasps = true;
   int environments = 64;
   std::uint64_t seed = 1;

@@ -11,6 +11,7 @@
 #include "rl/training.h"
 #include "skills/start_pool.h"
 #include "tasks/task_file.h"
+#include "workflows/grasps/asset_grasps.h"
 #include "workflows/skills/backward_tuning.h"
 #include "workflows/skills/subtask_training.h"
 
@@ -44,7 +45,8 @@ SkillRun RunOf(const TrainRequest& request) {
                         request.task_file.string());
   run.robot = request.robot;
   run.options.action = request.action;
-  run.proved_grasps = request.proved_grasps;
+  // Without a grasps.json the run is as those from before grasps were proved.
+  run.proved_grasps = request.proved_grasps && AnyAssetHasGrasps(run.set);
   run.options.episode_seconds = request.episode_seconds;
   run.options.finger_friction = request.finger_friction;
   run.environments = request.environments;
@@ -204,7 +206,7 @@ std::string TrainTable(const TrainReport& report) {
     table += line;
   }
   for (const auto& [asset, count] : report.grasps) {
-    table += asset + " is grasped by " + std::to_string(count) + " proved grasps\n";
+    table += asset + " may be grasped by " + std::to_string(count) + " proved grasps\n";
   }
   if (!report.chain.outcomes.empty()) {
     char line[128];

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "robot/panda_model.h"
 #include "tasks/task_names.h"
 #include "workflows/grasps/asset_grasps.h"
 
@@ -62,7 +63,7 @@ TaskAssets ReadTaskAssets(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     for (const Located& located : Expanded(argument)) {
       assets::SemanticModel model = assets::ReadSemanticModel(located.path);
-      model.graspable = HasGraspOnSupport(located.path);
+      model.graspable = HasGraspOnSupport(located.path, robot::Panda(false), &result.findings);
       if (!located.name.empty()) model.name = located.name;
       if (!tasks::IsAssetName(model.name)) {
         throw core::Error("programs cannot use the asset name '" + model.name + "'",
