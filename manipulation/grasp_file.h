@@ -8,8 +8,6 @@
 
 #include "core/json.h"
 #include "manipulation/grasp.h"
-#include "manipulation/grasp_proof.h"
-#include "manipulation/handle.h"
 #include "manipulation/parallel_gripper.h"
 
 namespace simwright::manipulation {
@@ -45,14 +43,6 @@ struct GraspSet {
   double coverage = 0.0;
   std::vector<JointProof> joint_proofs;  // of an articulated asset, by joint
 };
-
-GraspSet MakeGraspSet(const GraspObject& object, const std::string& mesh,
-                      const ParallelGripper& gripper, const ProvedGrasps& proved);
-// Returns the set of an articulated asset from its handles and their proofs. (handles) `urdf`: its
-// file.
-GraspSet MakeGraspSet(const std::string& name, const std::string& urdf,
-                      const ParallelGripper& gripper, const std::vector<Handle>& handles,
-                      const std::vector<ProvedGrasps>& proofs);
 
 // Returns the grasps that move a joint, best quality first, each in the frame of its link; none for
 // an unknown joint and for a rigid asset.

@@ -17,6 +17,7 @@
 #include "geometry/mass_properties.h"
 #include "manipulation/grasp_file.h"
 #include "manipulation/parallel_gripper.h"
+#include "manipulation/proved_grasp_set.h"
 
 namespace simwright::manipulation {
 namespace {

@@ -12,6 +12,7 @@
 #include "manipulation/grasp_file.h"
 #include "manipulation/grasp_proof.h"
 #include "manipulation/parallel_gripper.h"
+#include "manipulation/proved_grasp_set.h"
 
 namespace simwright::manipulation {
 namespace {

@@ -12,6 +12,7 @@
 #include "core/json.h"
 #include "geometry/mesh_validity.h"
 #include "manipulation/grasp_proof.h"
+#include "manipulation/proved_grasp_set.h"
 #include "sim/rigid_body.h"
 #include "workflows/grasps/grasp_preview.h"
 #include "workflows/grasps/handle_grasps.h"

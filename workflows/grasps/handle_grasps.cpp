@@ -11,6 +11,7 @@
 #include "core/image.h"
 #include "manipulation/grasp_proof.h"
 #include "manipulation/handle.h"
+#include "manipulation/proved_grasp_set.h"
 #include "workflows/grasps/grasp_preview.h"
 
 namespace simwright::workflows {
