@@ -14,7 +14,7 @@
 
 namespace simwright::certificate {
 
-// Where the proved grasps of bodies are.
+// The places of the proved grasps of bodies.
 struct ProvedGraspFiles {
   bool use = true;
   // The folder of NAME/grasps.json or NAME.json for an asset whose own folder is called NAME;

@@ -19,7 +19,7 @@ constexpr const char* kGraspFormat = "simwright_grasps";
 constexpr std::uint64_t kMostBytes = 256ull << 20;
 constexpr double kRigid = 1e-6;    // of a rotation matrix
 constexpr double kFarthest = 1e3;  // m
-constexpr size_t kMostGrasps = 100000;
+constexpr size_t kMostGraspsInFile = 100000;
 constexpr double kSamePose = 1e-4;  // of equal poses of a gripper's base link, m and rad
 
 core::OrderedJson VectorJson(const Vector3d& vector) {
@@ -112,7 +112,8 @@ JointProof JointProofFrom(const core::JsonField& field) {
 
 std::vector<Grasp> GraspsFrom(const core::JsonField& grasps) {
   const std::vector<core::JsonField> tools = grasps["tool_transforms"].Elements();
-  if (tools.size() > kMostGrasps) grasps["tool_transforms"].Fail("has more than 100000 grasps");
+  if (tools.size() > kMostGraspsInFile)
+    grasps["tool_transforms"].Fail("has more than 100000 grasps");
   const std::vector<double> quality = grasps["quality"].Numbers(tools.size());
   const std::vector<double> widths = grasps["width_m"].Numbers(tools.size());
   const std::vector<double> openings = grasps["opening_m"].Numbers(tools.size());

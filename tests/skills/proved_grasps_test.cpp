@@ -89,7 +89,7 @@ TEST(ProvedGrasps, ThePlanTakesTheObjectByOneOfThem) {
     EXPECT_LT((tool.matrix() - grasps[0].object_from_tool.matrix()).norm(), 0.02);
     EXPECT_DOUBLE_EQ(OpeningFor(*skill, start), grasps[0].opening);
   }
-  // Where the arm cannot come from that side, it takes the object from above.
+  // An arm that cannot come from that side takes the object from above.
   EXPECT_GE(taken, 4);
   for (const StartState& start : SampleStarts(*BlockSkill({}), 4, 5)) {
     EXPECT_EQ(start.grasp, -1);

@@ -1,4 +1,4 @@
-// What the program says of files that it cannot use: one line with what, where and what to do.
+// Messages about files that the program cannot use: one line with what, where and what to do.
 #include <gtest/gtest.h>
 
 #include <algorithm>

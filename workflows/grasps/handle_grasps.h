@@ -11,7 +11,7 @@
 
 namespace simwright::workflows {
 
-// Where the grasps of an asset go.
+// The files that the grasps of an asset are written to.
 struct GraspOutput {
   std::filesystem::path file, picture;
   manipulation::GraspFormat format = manipulation::GraspFormat::kJson;

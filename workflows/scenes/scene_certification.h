@@ -24,7 +24,7 @@ struct SceneCertificationRequest {
   bool pictures = true;
   std::uint64_t seed = 1;
   std::filesystem::path assets;  // a folder of asset folders; empty: the source's
-  // Where the assets' proved grasps are (certificate::ProvedGraspFiles): a folder, or "none";
+  // The place of the assets' proved grasps (certificate::ProvedGraspFiles): a folder, or "none";
   // empty: in the assets' folders.
   std::string grasps;
   std::filesystem::path output;
