@@ -9,6 +9,7 @@
 #include "assets/primitive_meshes.h"
 #include "core/error.h"
 #include "geometry/mass_properties.h"
+#include "tests/sim/plain_gripper.h"
 
 namespace simwright::sim {
 namespace {
@@ -16,28 +17,10 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-core::TriangleMesh GraspTrialBox(const Vector3d& center, const Vector3d& size) {
-  core::TriangleMesh mesh = assets::BoxMesh(size);
-  core::Transform(Eigen::Affine3d(Eigen::Translation3d(center)), &mesh);
-  return mesh;
-}
-
-// A gripper whose fingers are boxes of 2 x 1 x 4 cm, the pads at y = +-4 cm when it is open.
-GripperModel PlainGripper(double force) {
-  GripperModel gripper;
-  gripper.name = "plain";
-  gripper.max_opening = 0.08;
-  gripper.force = force;
-  gripper.palm = {GraspTrialBox({0, 0, -0.06}, {0.06, 0.2, 0.06})};
-  gripper.fingers[0] = {GraspTrialBox({0, 0.045, -0.01}, {0.02, 0.01, 0.04})};
-  gripper.fingers[1] = {GraspTrialBox({0, -0.045, -0.01}, {0.02, 0.01, 0.04})};
-  return gripper;
-}
-
 RigidBody GraspTrialBody(const Vector3d& size, double mass) {
   RigidBody body;
   body.name = "box";
-  body.parts = {GraspTrialBox({0, 0, 0.5 * size.z()}, size)};
+  body.parts = {BoxAround({0, 0, 0.5 * size.z()}, size)};
   const auto unit = geometry::SolidMassProperties(body.parts[0], 1.0);
   const auto solid = geometry::SolidMassProperties(body.parts[0], mass / unit.mass);
   body.inertial = {solid.mass, solid.center_of_mass, solid.inertia};

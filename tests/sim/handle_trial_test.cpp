@@ -11,30 +11,13 @@
 #include "core/error.h"
 #include "geometry/mass_properties.h"
 #include "sim/grasp_trial.h"
+#include "tests/sim/plain_gripper.h"
 
 namespace simwright::sim {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-core::TriangleMesh HandleTrialBox(const Vector3d& center, const Vector3d& size) {
-  core::TriangleMesh mesh = assets::BoxMesh(size);
-  core::Transform(Eigen::Affine3d(Eigen::Translation3d(center)), &mesh);
-  return mesh;
-}
-
-// A gripper whose fingers are boxes of 2 x 1 x 4 cm, the pads at y = +-4 cm when it is open.
-GripperModel HandleGripper(double force) {
-  GripperModel gripper;
-  gripper.name = "plain";
-  gripper.max_opening = 0.08;
-  gripper.force = force;
-  gripper.palm = {HandleTrialBox({0, 0, -0.06}, {0.06, 0.2, 0.06})};
-  gripper.fingers[0] = {HandleTrialBox({0, 0.045, -0.01}, {0.02, 0.01, 0.04})};
-  gripper.fingers[1] = {HandleTrialBox({0, -0.045, -0.01}, {0.02, 0.01, 0.04})};
-  return gripper;
-}
 
 RigidBody HandleLink(const std::string& name, const core::TriangleMesh& part, double mass) {
   RigidBody link;
@@ -82,9 +65,9 @@ GraspedPart Drawer(double friction, double damping = 0.0) {
   slide.damping = damping;
   const assets::Joint weld =
       HandleJoint("weld", "drawer", "handle", assets::JointType::kFixed, {-0.06, 0.0, 0.0});
-  return PartOf({HandleLink("body", HandleTrialBox({0.1, 0, 0.5}, {0.4, 0.4, 1.0}), 20.0),
-                 HandleLink("drawer", HandleTrialBox({0, 0, 0}, {0.02, 0.35, 0.2}), 2.0),
-                 HandleLink("handle", HandleTrialBox({0, 0, 0}, {0.012, 0.12, 0.012}), 0.1)},
+  return PartOf({HandleLink("body", BoxAround({0.1, 0, 0.5}, {0.4, 0.4, 1.0}), 20.0),
+                 HandleLink("drawer", BoxAround({0, 0, 0}, {0.02, 0.35, 0.2}), 2.0),
+                 HandleLink("handle", BoxAround({0, 0, 0}, {0.012, 0.12, 0.012}), 0.1)},
                 {slide, weld}, 0.3);
 }
 
@@ -108,7 +91,7 @@ TEST_P(HandleTrialTest, PullsADrawerUpToTheFrictionLimit) {
   options.friction = friction;
   options.hold_time = 0.3;
   for (const double share : {0.1, 0.9, 1.1, 1.5}) {
-    const GraspTrials trials(GetParam(), HandleGripper(force),
+    const GraspTrials trials(GetParam(), PlainGripper(force),
                              Drawer(share * limit - 2.1 * acceleration), options);
     const GraspTrialResult result = trials.Run(FromFront());
     EXPECT_TRUE(result.closed) << result.reason;
@@ -130,7 +113,7 @@ TEST_P(HandleTrialTest, PullsAgainstTheDamperUpToTheFrictionLimit) {
   options.hold_time = 0.3;
   const double limit = 24.0, fastest = 0.5 * std::numbers::pi * 0.8 * 0.3 / 2.0;
   for (const double share : {0.85, 1.5}) {
-    const GraspTrials trials(GetParam(), HandleGripper(30.0), Drawer(0.0, share * limit / fastest),
+    const GraspTrials trials(GetParam(), PlainGripper(30.0), Drawer(0.0, share * limit / fastest),
                              options);
     const GraspTrialResult result = trials.Run(FromFront());
     EXPECT_EQ(result.held, share < 1.0) << share << ": " << result.reason;
@@ -139,7 +122,7 @@ TEST_P(HandleTrialTest, PullsAgainstTheDamperUpToTheFrictionLimit) {
 
 // A finger that is off the middle by 5 mm touches first, and the arm yields to it.
 TEST_P(HandleTrialTest, TheArmYieldsToAFingerThatTouchesFirst) {
-  const GraspTrials trials(GetParam(), HandleGripper(30.0), Drawer(5.0));
+  const GraspTrials trials(GetParam(), PlainGripper(30.0), Drawer(5.0));
   for (const double offset : {-0.006, 0.006}) {
     GraspTrialInput input = FromFront();
     input.object_from_tool.translation().z() = offset;
@@ -159,11 +142,11 @@ TEST_P(HandleTrialTest, OpensADoorOnItsArc) {
   const assets::Joint weld =
       HandleJoint("weld", "door", "handle", assets::JointType::kFixed, {-0.06, -0.7, 0.0});
   const GraspedPart part =
-      PartOf({HandleLink("body", HandleTrialBox({0.2, 0, 0.5}, {0.3, 0.8, 1.0}), 20.0),
-              HandleLink("door", HandleTrialBox({0, -0.4, 0}, {0.02, 0.8, 0.9}), 6.0),
-              HandleLink("handle", HandleTrialBox({0, 0, 0}, {0.012, 0.012, 0.12}), 0.1)},
+      PartOf({HandleLink("body", BoxAround({0.2, 0, 0.5}, {0.3, 0.8, 1.0}), 20.0),
+              HandleLink("door", BoxAround({0, -0.4, 0}, {0.02, 0.8, 0.9}), 6.0),
+              HandleLink("handle", BoxAround({0, 0, 0}, {0.012, 0.012, 0.12}), 0.1)},
              {hinge, weld}, hinge.lower);
-  const GraspTrials trials(GetParam(), HandleGripper(30.0), part);
+  const GraspTrials trials(GetParam(), PlainGripper(30.0), part);
   GraspTrialInput input;
   input.object_from_tool.linear() << 0, 0, 1, 0, 1, 0, -1, 0, 0;
   input.opening = 0.032;
@@ -178,14 +161,14 @@ TEST_P(HandleTrialTest, OpensADoorOnItsArc) {
 TEST_P(HandleTrialTest, RefusesPartsThatNoJointMoves) {
   GraspedPart part = Drawer(1.0);
   part.far = 0.0;
-  EXPECT_THROW(GraspTrials(GetParam(), HandleGripper(30.0), part), core::Error);
+  EXPECT_THROW(GraspTrials(GetParam(), PlainGripper(30.0), part), core::Error);
   part = Drawer(1.0);
   part.joint = 1;  // fixed
-  EXPECT_THROW(GraspTrials(GetParam(), HandleGripper(30.0), part), core::Error);
+  EXPECT_THROW(GraspTrials(GetParam(), PlainGripper(30.0), part), core::Error);
   part = Drawer(1.0);
   part.link = 0;
-  EXPECT_THROW(GraspTrials(GetParam(), HandleGripper(30.0), part), core::Error);
-  const GraspTrials trials(GetParam(), HandleGripper(30.0), Drawer(1.0));
+  EXPECT_THROW(GraspTrials(GetParam(), PlainGripper(30.0), part), core::Error);
+  const GraspTrials trials(GetParam(), PlainGripper(30.0), Drawer(1.0));
   GraspTrialInput input = FromFront();
   input.world_from_object = Isometry3d::Identity();
   EXPECT_THROW(trials.Run(input), core::Error);
