@@ -1,0 +1,34 @@
+#include "twin/detector_example.h"
+
+#include <cmath>
+
+#include "twin/table_picture.h"
+
+namespace simwright::twin {
+
+std::array<float, 4> CameraNumbers(const core::Camera& camera) {
+  const Eigen::Matrix3d& turn = camera.world_from_camera.linear();
+  const double elevation = std::asin(-turn(2, 2));
+  // The image's right side (x) and bottom (y) in the world: z of both is 0 and negative if upright.
+  const double roll = std::atan2(turn(2, 0), -turn(2, 1));
+  return {static_cast<float>(elevation), static_cast<float>(roll),
+          static_cast<float>(std::log(camera.fx / camera.width)),
+          static_cast<float>(std::log(camera.position().z()))};
+}
+
+DetectorExample MakeDetectorExample(const TableSceneSources& sources,
+                                    const TableSceneOptions& options, std::uint64_t seed) {
+  core::Rng rng = core::StreamRng(seed, 0x7ab1e);
+  const TableScene scene = SampleTableScene(sources, options, &rng);
+  const TablePicture picture = RenderTable(scene, sources, 2, seed);
+  DetectorExample example;
+  example.picture = picture.color.pixels;
+  example.object.reserve(picture.label.size());
+  for (const std::int16_t label : picture.label) {
+    example.object.push_back(label >= 0 ? static_cast<std::uint8_t>(label + 1) : std::uint8_t{0});
+  }
+  example.camera = CameraNumbers(scene.camera);
+  return example;
+}
+
+}  // namespace simwright::twin

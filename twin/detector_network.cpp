@@ -1,0 +1,81 @@
+#include "twin/detector_network.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace simwright::twin {
+namespace {
+
+constexpr int kPixelNumbers = 4;  // object, centre, two of the offset
+constexpr int kCameraHidden = 128;
+
+nn::UNetOptions UNetOf(const DetectorNetworkOptions& options) {
+  nn::UNetOptions unet;
+  unet.in_channels = 3;
+  unet.out_channels = kPixelNumbers;
+  unet.channels = options.channels;
+  unet.attention_from = static_cast<int>(options.channels.size()) - 1;
+  return unet;
+}
+
+}  // namespace
+
+nn::CheckpointMetadata DetectorNetworkOptions::Metadata() const {
+  std::string list;
+  for (const int count : channels) list += (list.empty() ? "" : ",") + std::to_string(count);
+  return {{"channels", list}};
+}
+
+DetectorNetworkOptions DetectorNetworkOptions::Of(const std::filesystem::path& weights) {
+  const nn::CheckpointMetadata metadata = nn::ReadCheckpointMetadata(weights, "table detector");
+  DetectorNetworkOptions options;
+  options.channels.clear();
+  if (const auto list = metadata.find("channels"); list != metadata.end()) {
+    std::istringstream counts(list->second);
+    for (std::string count; std::getline(counts, count, ',');) {
+      options.channels.push_back(std::atoi(count.c_str()));
+    }
+  }
+  const bool valid = options.channels.size() == 4 &&
+                     std::all_of(options.channels.begin(), options.channels.end(), [](int count) {
+                       return count >= 8 && count <= 1024 && count % 8 == 0;
+                     });
+  if (!valid) {
+    throw core::Error("the weights name no valid sizes of the network", weights.string(),
+                      "train them again: simwright prior train --only detector");
+  }
+  return options;
+}
+
+DetectorNetworkImpl::DetectorNetworkImpl(const DetectorNetworkOptions& options) {
+  unet_ = register_module("unet", nn::UNet(UNetOf(options)));
+  hidden_ = register_module("hidden", torch::nn::Linear(options.channels.back(), kCameraHidden));
+  camera_ = register_module("camera", torch::nn::Linear(kCameraHidden, 2 * kCameraNumbers));
+}
+
+DetectorOutput DetectorNetworkImpl::Detect(const torch::Tensor& pictures) {
+  torch::Tensor coarse;
+  const torch::Tensor pixels = unet_->ForwardWithBottleneck(pictures, {}, &coarse);
+  const torch::Tensor camera = camera_(torch::silu(hidden_(coarse)));
+  DetectorOutput output;
+  output.object = pixels.slice(1, 0, 1);
+  output.centre = pixels.slice(1, 1, 2);
+  output.offset = pixels.slice(1, 2, 4);
+  output.camera = camera.slice(1, 0, kCameraNumbers);
+  output.log_b = torch::clamp(camera.slice(1, kCameraNumbers, 2 * kCameraNumbers), -4.5, 1.0);
+  return output;
+}
+
+torch::Tensor DetectorPictures(const std::uint8_t* rgb, int count, int height, int width) {
+  return torch::from_blob(const_cast<std::uint8_t*>(rgb), {count, height, width, 3}, torch::kUInt8)
+      .permute({0, 3, 1, 2})
+      .to(torch::kFloat)
+      .div(127.5)
+      .sub(1.0)
+      .contiguous();
+}
+
+}  // namespace simwright::twin

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "nn/blocks.h"
+#include "nn/checkpoint.h"
+#include "nn/torch.h"
+#include "nn/unet.h"
+
+namespace simwright::twin {
+
+// The offsets that the network predicts are in units of this many pixels.
+inline constexpr double kOffsetUnit = 16.0;
+// The camera's numbers: elevation and roll (rad), logarithms of the focal length over the picture's
+// width and of the height above the table (m).
+inline constexpr int kCameraNumbers = 4;
+
+// The network's answer for B pictures of H x W pixels.
+struct DetectorOutput {
+  torch::Tensor object;  // (B x 1 x H x W) logits: the pixel shows an object
+  torch::Tensor centre;  // (B x 1 x H x W) logits of the heat around the objects' centres
+  torch::Tensor offset;  // (B x 2 x H x W) from the pixel to its object's centre, kOffsetUnit
+  torch::Tensor camera;  // (B x 4) means
+  torch::Tensor log_b;   // (B x 4) logarithms of the mean absolute errors
+};
+
+// The sizes of the network, which its weights' file keeps.
+struct DetectorNetworkOptions {
+  std::vector<int> channels = {24, 48, 96, 160};  // of the U-Net's levels
+
+  nn::CheckpointMetadata Metadata() const;
+  // Reads the sizes from the file `weights`. Throws core::Error for a file without valid ones.
+  static DetectorNetworkOptions Of(const std::filesystem::path& weights);
+};
+
+// Finds the objects on a table as a U-Net that tells for each pixel whether it shows an object, and
+// where the middle of that object is (Cheng et al. 2020, "Panoptic-DeepLab"); and the camera above
+// the table from the coarsest features.
+class DetectorNetworkImpl : public torch::nn::Module {
+ public:
+  explicit DetectorNetworkImpl(const DetectorNetworkOptions& options = {});
+
+  // `pictures` (B x 3 x H x W): RGB in [-1, 1]; H and W divisible by 16.
+  DetectorOutput Detect(const torch::Tensor& pictures);
+
+ private:
+  nn::UNet unet_{nullptr};
+  torch::nn::Linear hidden_{nullptr}, camera_{nullptr};
+};
+TORCH_MODULE(DetectorNetwork);
+
+// Returns the (count x 3 x height x width) network input for RGB bytes.
+torch::Tensor DetectorPictures(const std::uint8_t* rgb, int count, int height, int width);
+
+}  // namespace simwright::twin

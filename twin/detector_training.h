@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "asset_lift/priors/prior_training.h"
+#include "core/progress.h"
+#include "nn/trainer_options.h"
+#include "twin/table_scene.h"
+
+namespace simwright::twin {
+
+struct DetectorTrainingOptions {
+  nn::TrainerOptions trainer;
+  int batch = 8;     // pictures per step
+  int pool = 3000;   // pictures kept in memory: 200 KB each
+  int exchange = 3;  // pictures of the pool that each step replaces by new ones
+  std::vector<int> channels = {24, 48, 96, 160};  // of the network's levels
+  TableSceneOptions scenes;
+  std::uint64_t seed = 1;
+
+  DetectorTrainingOptions();
+  // Returns false for invalid values, with the reason in `error` unless it is null.
+  bool IsValid(std::string* error) const;
+};
+
+// Trains the detector's network on random scenes and writes the averaged weights to the file
+// `weights` every `trainer.save_every` steps; reports every 50 steps and returns the last report.
+// The metrics are the IoU of the objects' pixels, the mean error of the offsets in pixels, and the
+// mean errors of the camera's elevation (degrees) and of the logarithms of focal length and height.
+// Throws core::Error for invalid options and for weights that cannot be written, and
+// core::Cancelled after Ctrl-C; `trainer.resume` continues a cancelled training.
+asset_lift::PriorTrainingReport TrainDetector(const TableSceneSources& sources,
+                                              const DetectorTrainingOptions& options,
+                                              const std::filesystem::path& weights,
+                                              core::Progress* progress,
+                                              const asset_lift::PriorTrainingListener& report = {});
+
+}  // namespace simwright::twin

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "twin/table_scene.h"
+
+namespace simwright::twin {
+
+inline constexpr std::int16_t kBackgroundLabel = -1, kTableLabel = -2;
+
+// A photo-like picture of a table with what each pixel shows.
+struct TablePicture {
+  core::Image color;                // RGB, sRGB
+  std::vector<std::int16_t> label;  // (height x width) index of the object, or one of the above
+  std::vector<float> depth;         // (height x width) m along the optical axis, 0: background
+};
+
+// Renders a scene with `samples` x `samples` rays a pixel: sky light with ambient occlusion, a sun
+// with soft shadows, highlights. The label and depth of a pixel are those of most of its rays, and
+// of the first of these.
+TablePicture RenderTable(const TableScene& scene, const TableSceneSources& sources, int samples,
+                         std::uint64_t seed);
+
+}  // namespace simwright::twin
