@@ -102,7 +102,7 @@ double EdgeError(const render::ForwardBuffers& seen, const std::vector<int>& mat
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
       const size_t i = seen.Index(x, y);
-      if (material[i] < 0) continue;
+      if (material[i] < 0 || !target.Counts(i)) continue;
       bool edge = false;
       for (const size_t j : {x + 1 < side ? i + 1 : i, y + 1 < side ? i + side : i}) {
         if (material[j] < 0) continue;
@@ -117,6 +117,7 @@ double EdgeError(const render::ForwardBuffers& seen, const std::vector<int>& mat
   SpreadDistance(side, &distance);
   double ours = 0.0, weight = 0.0;
   for (size_t i = 0; i < distance.size(); ++i) {
+    if (!target.Counts(i)) continue;
     ours += target.edge_strength[i] * distance[i];
     weight += target.edge_strength[i];
   }
@@ -183,6 +184,7 @@ FitAgreement CompareWithPhoto(const core::TexturedMesh& mesh, const core::Camera
   std::vector<int> material(seen.triangle.size(), -1), look(seen.triangle.size(), -1);
   double shared = 0.0, joint = 0.0;
   for (size_t i = 0; i < seen.triangle.size(); ++i) {
+    if (!target.Counts(i)) continue;
     const double theirs = target.opacity[i];
     if (seen.triangle[i] < 0) {
       joint += theirs;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +22,11 @@ struct FitTarget {
   std::vector<float> edge_strength;    // (side x side) of the edges inside the object, in [0, 1]
   std::vector<float> edge_distance;    // (side x side) pixels to the nearest edge, at most kFarEdge
   double color_variance = 0.0;         // of the object, summed over channels
+  // (side x side) 1: something else may cover the object here, so the pixel does not count; empty:
+  // all count.
+  std::vector<std::uint8_t> covered;
+
+  bool Counts(std::size_t pixel) const { return covered.empty() || covered[pixel] == 0; }
 };
 
 inline constexpr float kFarEdge = 3.0f;  // pixels; farther edges count as this far

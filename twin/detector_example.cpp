@@ -2,18 +2,16 @@
 
 #include <cmath>
 
+#include "twin/table_camera.h"
 #include "twin/table_picture.h"
 
 namespace simwright::twin {
 
 std::array<float, 4> CameraNumbers(const core::Camera& camera) {
-  const Eigen::Matrix3d& turn = camera.world_from_camera.linear();
-  const double elevation = std::asin(-turn(2, 2));
-  // The image's right side (x) and bottom (y) in the world: z of both is 0 and negative if upright.
-  const double roll = std::atan2(turn(2, 0), -turn(2, 1));
-  return {static_cast<float>(elevation), static_cast<float>(roll),
-          static_cast<float>(std::log(camera.fx / camera.width)),
-          static_cast<float>(std::log(camera.position().z()))};
+  const TableCamera numbers = TableCameraOf(camera);
+  return {static_cast<float>(numbers.elevation), static_cast<float>(numbers.roll),
+          static_cast<float>(std::log(numbers.focal)),
+          static_cast<float>(std::log(numbers.height))};
 }
 
 DetectorExample MakeDetectorExample(const TableSceneSources& sources,

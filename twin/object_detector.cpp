@@ -1,0 +1,151 @@
+#include "twin/object_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "nn/checkpoint.h"
+#include "twin/detected_pixels.h"
+#include "twin/detector_network.h"
+
+namespace simwright::twin {
+namespace {
+
+constexpr double kNetworkPixels = 256.0 * 192.0;  // of the pictures on which it was trained
+constexpr int kSideStep = 16;
+
+int NetworkSide(int side, double scale) {
+  return std::max(4, static_cast<int>(std::lround(side * scale / kSideStep))) * kSideStep;
+}
+
+// Returns the value of a picture of `pixels` at a point, bilinear, in pixels of that picture.
+float ValueAt(const std::vector<float>& values, int width, int height, double x, double y) {
+  const double px = std::clamp(x - 0.5, 0.0, width - 1.0);
+  const double py = std::clamp(y - 0.5, 0.0, height - 1.0);
+  const int x0 = static_cast<int>(px), y0 = static_cast<int>(py);
+  const int x1 = std::min(x0 + 1, width - 1), y1 = std::min(y0 + 1, height - 1);
+  const auto tx = static_cast<float>(px - x0), ty = static_cast<float>(py - y0);
+  const auto at = [&](int i, int j) { return values[static_cast<size_t>(j) * width + i]; };
+  return (1.0f - ty) * ((1.0f - tx) * at(x0, y0) + tx * at(x1, y0)) +
+         ty * ((1.0f - tx) * at(x0, y1) + tx * at(x1, y1));
+}
+
+DetectedPixels PixelsOf(const DetectorOutput& output, int width, int height) {
+  DetectedPixels pixels;
+  pixels.width = width;
+  pixels.height = height;
+  const torch::Tensor object = torch::sigmoid(output.object).contiguous();
+  const torch::Tensor centre = torch::sigmoid(output.centre).contiguous();
+  const torch::Tensor offset = output.offset.contiguous();
+  const size_t count = static_cast<size_t>(width) * height;
+  pixels.object.assign(object.data_ptr<float>(), object.data_ptr<float>() + count);
+  pixels.centre.assign(centre.data_ptr<float>(), centre.data_ptr<float>() + count);
+  const float* of = offset.data_ptr<float>();
+  for (size_t i = 0; i < count; ++i) {
+    pixels.offset.push_back(kOffsetUnit * Eigen::Vector2f(of[i], of[count + i]));
+  }
+  return pixels;
+}
+
+TableCameraGuess GuessOf(const DetectorOutput& output) {
+  const torch::Tensor camera = output.camera.contiguous(), log_b = output.log_b.contiguous();
+  const float *mean = camera.data_ptr<float>(), *error = log_b.data_ptr<float>();
+  TableCameraGuess guess;
+  guess.camera.elevation = std::clamp<double>(mean[0], 0.06, 1.5);
+  guess.camera.roll = std::clamp<double>(mean[1], -0.7, 0.7);
+  guess.camera.focal = std::clamp<double>(std::exp(mean[2]), 0.35, 8.0);
+  guess.camera.height = std::clamp<double>(std::exp(mean[3]), 0.06, 10.0);
+  guess.elevation_error = std::exp(error[0]);
+  guess.roll_error = std::exp(error[1]);
+  guess.log_focal_error = std::exp(error[2]);
+  guess.log_height_error = std::exp(error[3]);
+  return guess;
+}
+
+// Returns the objects that the groups of pixels show, in the photo's pixels.
+std::vector<Detection> ObjectsOf(const DetectedPixels& pixels, const PixelGroups& groups,
+                                 const core::Image& photo) {
+  std::vector<Detection> objects(groups.centre.size());
+  std::vector<double> sum(objects.size(), 0.0);
+  std::vector<int> count(objects.size(), 0);
+  for (Detection& object : objects) object.alpha = core::Image(photo.width, photo.height, 1);
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      const double px = (x + 0.5) * pixels.width / photo.width;
+      const double py = (y + 0.5) * pixels.height / photo.height;
+      const float share = ValueAt(pixels.object, pixels.width, pixels.height, px, py);
+      if (share < 0.02f) continue;
+      const int cx = std::min(static_cast<int>(px), pixels.width - 1);
+      const int cy = std::min(static_cast<int>(py), pixels.height - 1);
+      // Pixels just outside of an object belong to the object of a neighbour.
+      int group = -1;
+      for (int reach = 0; reach <= 1 && group < 0; ++reach) {
+        for (int dy = -reach; dy <= reach && group < 0; ++dy) {
+          for (int dx = -reach; dx <= reach && group < 0; ++dx) {
+            const int nx = std::clamp(cx + dx, 0, pixels.width - 1);
+            const int ny = std::clamp(cy + dy, 0, pixels.height - 1);
+            group = groups.group[static_cast<size_t>(ny) * pixels.width + nx];
+          }
+        }
+      }
+      if (group < 0) continue;
+      Detection& object = objects[static_cast<size_t>(group)];
+      *object.alpha.At(x, y) = static_cast<std::uint8_t>(std::lround(255.0f * share));
+      if (share < 0.5f) continue;
+      object.box.extend(Eigen::Vector2d(x, y));
+      object.box.extend(Eigen::Vector2d(x + 1, y + 1));
+      sum[static_cast<size_t>(group)] += share;
+      ++count[static_cast<size_t>(group)];
+    }
+  }
+  for (size_t k = 0; k < objects.size(); ++k) {
+    objects[k].confidence = groups.centre[k] * sum[k] / std::max(1, count[k]);
+    const Eigen::AlignedBox2d& box = objects[k].box;
+    objects[k].cut =
+        !box.isEmpty() && (box.min().x() < 2 || box.min().y() < 2 ||
+                           box.max().x() > photo.width - 2 || box.max().y() > photo.height - 2);
+  }
+  std::erase_if(objects, [](const Detection& object) { return object.box.isEmpty(); });
+  std::stable_sort(objects.begin(), objects.end(), [](const Detection& a, const Detection& b) {
+    return a.box.volume() > b.box.volume();
+  });
+  return objects;
+}
+
+}  // namespace
+
+struct ObjectDetector::Network {
+  DetectorNetwork net{nullptr};
+};
+
+ObjectDetector::ObjectDetector(const std::filesystem::path& weights)
+    : network_(std::make_unique<Network>()) {
+  network_->net = DetectorNetwork(DetectorNetworkOptions::Of(weights));
+  nn::LoadCheckpoint(weights, "table detector", network_->net.get());
+  network_->net->eval();
+}
+
+ObjectDetector::~ObjectDetector() = default;
+
+Detections ObjectDetector::Detect(const core::Image& photo) const {
+  if (photo.channels != 3 || photo.width < 64 || photo.height < 64) {
+    throw core::Error("a photo of a table must be an RGB picture of at least 64 pixels a side");
+  }
+  const torch::NoGradGuard no_grad;
+  const double scale = std::sqrt(kNetworkPixels / photo.width / photo.height);
+  const int width = NetworkSide(photo.width, scale), height = NetworkSide(photo.height, scale);
+  const core::Image seen = core::Resize(photo, width, height);
+  const DetectorOutput output =
+      network_->net->Detect(DetectorPictures(seen.pixels.data(), 1, height, width));
+  const DetectedPixels pixels = PixelsOf(output, width, height);
+  Detections found;
+  found.objects = ObjectsOf(pixels, GroupPixels(pixels), photo);
+  found.camera = GuessOf(output);
+  double covered = 0.0;
+  for (const float share : pixels.object) covered += share >= 0.5f ? 1.0 : 0.0;
+  found.object_share = covered / static_cast<double>(pixels.object.size());
+  return found;
+}
+
+}  // namespace simwright::twin
