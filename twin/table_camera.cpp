@@ -31,9 +31,18 @@ bool TableCamera::IsValid(std::string* error) const {
 }
 
 core::Camera TableCamera::At(int width, int height_pixels) const {
-  core::Camera camera = core::OrbitCamera(Eigen::Vector3d::Zero(), height / std::sin(elevation),
-                                          elevation, -0.5 * M_PI, 1.0, width, height_pixels);
-  camera.world_from_camera.rotate(Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()));
+  core::Camera camera;
+  camera.width = width;
+  camera.height = height_pixels;
+  // Right, down and forward of the camera without roll.
+  const double sine = std::sin(elevation), cosine = std::cos(elevation);
+  Eigen::Matrix3d turn;
+  turn.col(0) = Eigen::Vector3d::UnitX();
+  turn.col(1) = Eigen::Vector3d(0.0, -sine, -cosine);
+  turn.col(2) = Eigen::Vector3d(0.0, cosine, -sine);
+  camera.world_from_camera.linear() =
+      turn * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  camera.world_from_camera.translation() = height * Eigen::Vector3d::UnitZ();
   camera.fx = camera.fy = focal * width;
   camera.cx = 0.5 * width;
   camera.cy = 0.5 * height_pixels;

@@ -7,7 +7,7 @@
 namespace simwright::twin {
 
 // A camera above a table in the numbers that a photo determines. The world's origin is the point of
-// the table, z = 0, on the optical axis; z is up, and the camera looks towards +y.
+// the table's plane, z = 0, below the camera; z is up, and the camera looks towards +y.
 struct TableCamera {
   double elevation = 0.6;  // rad, of the optical axis below the horizon
   double roll = 0.0;       // rad, about the optical axis

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <string>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "library_fit/cma_es.h"
 #include "library_fit/fit_kinds.h"
+#include "twin/table_scene.h"
 
 namespace simwright::twin {
 namespace {
@@ -234,8 +234,12 @@ class TableSearch {
 
 std::vector<int> LikelyKinds(const std::vector<double>& probabilities,
                              const TableFitOptions& options) {
-  std::vector<int> kinds(probabilities.size());
-  std::iota(kinds.begin(), kinds.end(), 0);
+  std::vector<int> kinds = options.kinds.empty() ? TableKinds() : options.kinds;
+  for (const int kind : kinds) {
+    if (kind < 0 || kind >= static_cast<int>(probabilities.size())) {
+      throw core::Error("no such kind to fit", std::to_string(kind));
+    }
+  }
   std::stable_sort(kinds.begin(), kinds.end(), [&](int a, int b) {
     return probabilities[static_cast<size_t>(a)] > probabilities[static_cast<size_t>(b)];
   });
@@ -301,6 +305,17 @@ std::vector<TableFit> FitOnTable(const library_fit::LibraryPrior& prior,
     return a.Score(0.0) < b.Score(0.0);
   });
   return fits;
+}
+
+TableFit MovedToCamera(const TableFit& fit, const core::Camera& before, const core::Camera& after) {
+  const core::TriangleMesh mesh = InstanceMesh(fit.instance).mesh;
+  const Eigen::AlignedBox2d box = ProjectedBox(mesh, {fit.pose, 1.0}, before);
+  if (box.isEmpty()) return fit;
+  const ScaledPose placed = PoseFromBox(mesh, fit.pose.yaw, after, box);
+  TableFit moved = fit;
+  moved.pose = placed.pose;
+  moved.instance.size *= placed.scale;
+  return moved;
 }
 
 void RefineOnTable(const library_fit::LibraryPrior& prior, const ObservedObject& object,

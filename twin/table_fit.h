@@ -20,6 +20,7 @@ struct TableFitOptions {
   int generations = 18;             // of each of its passes
   // The mean absolute error of the logarithm of the camera's height: as uncertain are all sizes.
   double log_scale_error = 0.0;
+  std::vector<int> kinds;  // the only kinds considered; empty: TableKinds()
   std::uint64_t seed = 1;
 
   bool IsValid(std::string* error) const;
@@ -47,7 +48,11 @@ std::vector<TableFit> FitOnTable(const library_fit::LibraryPrior& prior,
                                  const ObservedObject& object, const core::Camera& camera,
                                  const TableFitOptions& options);
 
-// Refines a fit for a changed camera, from where it is: pose, sizes and continuous choices.
+// Returns the fit with the pose and the size that give it the same bounding box in the pictures of
+// `after` as it has in those of `before`.
+TableFit MovedToCamera(const TableFit& fit, const core::Camera& before, const core::Camera& after);
+
+// Refines a fit from where it is: pose, sizes and continuous choices.
 void RefineOnTable(const library_fit::LibraryPrior& prior, const ObservedObject& object,
                    const core::Camera& camera, const TableFitOptions& options, TableFit* fit);
 

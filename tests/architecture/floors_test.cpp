@@ -36,7 +36,7 @@ const std::vector<Door> kDoors = {
       "sim/mujoco_stability", "sim/mujoco_grasp_rig", "sim/mujoco_body_rig"}},
     {std::regex("^curl/"), {"llm"}},
     {std::regex("^opencv2/"), {"core/image", "asset_lift", "capture", "texture"}},
-    {std::regex("^ceres/"), {"capture", "scene"}},
+    {std::regex("^ceres/"), {"capture", "scene", "twin"}},
     {std::regex("^(torch|ATen)/"), {"nn"}},
     {std::regex("^CLI/"), {"cli"}},
     {std::regex("^nanobind/"), {"python"}},
