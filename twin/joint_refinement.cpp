@@ -72,6 +72,8 @@ class JointLoss : public ceres::FirstOrderFunction {
     }
     render::DifferentiableOptions render_options;
     render_options.edge_samples = 3000;
+    render_options.samples_per_side = 3;
+
     renderer_ =
         std::make_unique<render::DifferentiableRenderer>(std::move(rendered), render_options);
   }
@@ -123,6 +125,7 @@ class JointLoss : public ceres::FirstOrderFunction {
     error_ = squares / (static_cast<double>(width_) * height_);
     *cost = 0.5 * weight * squares + PriorCost(x, gradient);
     if (gradient == nullptr) return true;
+    gradients_.SetZero();
     renderer_->Backward(slope, &gradients_);
     AddImageGradient(x, numbers, camera, gradient);
     return true;

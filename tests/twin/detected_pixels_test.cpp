@@ -1,0 +1,63 @@
+#include "twin/detected_pixels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace simwright::twin {
+namespace {
+
+// Two discs that touch, each with its own centre.
+TEST(GroupPixels, SeparatesTouchingObjectsByTheirCentres) {
+  DetectedPixels pixels;
+  pixels.width = 60;
+  pixels.height = 40;
+  const Eigen::Vector2f centres[] = {{20.0f, 20.0f}, {38.0f, 20.0f}};
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) {
+      const Eigen::Vector2f at(x, y);
+      const int nearer = (at - centres[0]).norm() <= (at - centres[1]).norm() ? 0 : 1;
+      const bool inside = (at - centres[nearer]).norm() <= 9.0f;
+      pixels.object.push_back(inside ? 0.9f : 0.1f);
+      float heat = 0.0f;
+      for (const Eigen::Vector2f& centre : centres) {
+        heat = std::max(heat, std::exp(-0.1f * (at - centre).squaredNorm()));
+      }
+      pixels.centre.push_back(heat);
+      pixels.offset.push_back(0.9f * (centres[nearer] - at));
+    }
+  }
+  const PixelGroups groups = GroupPixels(pixels);
+  ASSERT_EQ(groups.centre.size(), 2u);
+  EXPECT_FLOAT_EQ(groups.centre[0], 1.0f);
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) {
+      const size_t at = static_cast<size_t>(y) * pixels.width + x;
+      if (pixels.object[at] < 0.5f) {
+        EXPECT_EQ(groups.group[at], -1);
+      } else {
+        EXPECT_EQ(groups.group[at], x <= 29 ? 0 : 1) << x << " " << y;
+      }
+    }
+  }
+}
+
+TEST(GroupPixels, LeavesOutSpecks) {
+  DetectedPixels pixels;
+  pixels.width = pixels.height = 20;
+  pixels.object.assign(400, 0.0f);
+  pixels.centre.assign(400, 0.0f);
+  pixels.offset.assign(400, Eigen::Vector2f::Zero());
+  pixels.object[5 * 20 + 5] = 1.0f;  // one pixel
+  pixels.centre[5 * 20 + 5] = 1.0f;
+  EXPECT_TRUE(GroupPixels(pixels).centre.empty());
+  // Pixels without any peak belong to no object.
+  pixels.object.assign(400, 1.0f);
+  pixels.centre.assign(400, 0.0f);
+  const PixelGroups groups = GroupPixels(pixels);
+  EXPECT_TRUE(groups.centre.empty());
+  for (const int group : groups.group) EXPECT_EQ(group, -1);
+}
+
+}  // namespace
+}  // namespace simwright::twin

@@ -1,0 +1,71 @@
+#include "twin/detector_training.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "twin/object_detector.h"
+#include "twin/table_picture.h"
+
+namespace simwright::twin {
+namespace {
+
+DetectorTrainingOptions SmallTraining() {
+  DetectorTrainingOptions options;
+  options.channels = {8, 16, 16, 24};
+  options.scenes.width = options.scenes.height = 64;
+  options.scenes.least_objects = 1;
+  options.scenes.most_objects = 3;
+  options.batch = 4;
+  options.pool = 24;
+  options.exchange = 1;
+  options.trainer.steps = 150;
+  options.trainer.learning_rate = 4e-3;
+  options.trainer.save_every = 150;
+  options.trainer.ema_decay = 0.9;
+  return options;
+}
+
+// A small network learns which pixels show objects, and its file gives detections.
+TEST(TrainDetector, LearnsAndWritesWeights) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / "simwright_detector_test";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path weights = folder / "table_detector.pt";
+  std::vector<double> overlap;
+  core::Progress progress;
+  TrainDetector({}, SmallTraining(), weights, &progress,
+                [&](const asset_lift::PriorTrainingReport& report) {
+                  overlap.push_back(report.metrics.front().second);
+                });
+  ASSERT_EQ(overlap.size(), 3u);
+  EXPECT_GT(overlap.back(), overlap.front() + 0.05);
+  EXPECT_GT(overlap.back(), 0.25);
+  const ObjectDetector detector(weights);
+  const Detections found = detector.Detect(core::Image(160, 100, 3, 128));
+  EXPECT_GE(found.object_share, 0.0);
+  std::string error;
+  EXPECT_TRUE(found.camera.camera.IsValid(&error)) << error;
+  EXPECT_THROW(detector.Detect(core::Image(20, 20, 3)), core::Error);
+  EXPECT_THROW(ObjectDetector(folder / "none.pt"), core::Error);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(DetectorTrainingOptions, NamesWhatIsWrong) {
+  DetectorTrainingOptions options = SmallTraining();
+  options.scenes.width = 70;
+  std::string error;
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_NE(error.find("16"), std::string::npos);
+  options = SmallTraining();
+  options.exchange = 25;
+  EXPECT_FALSE(options.IsValid(&error));
+  EXPECT_NE(error.find("pool"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace simwright::twin
