@@ -46,6 +46,7 @@ void AddGrasps(CLI::App* app, CommonOptions* common, Run* run);
 void AddCheck(CLI::App* app, CommonOptions* common, Run* run);
 void AddLibrary(CLI::App* app, CommonOptions* common, Run* run);
 void AddPrior(CLI::App* app, CommonOptions* common, Run* run);
+void AddTwin(CLI::App* app, CommonOptions* common, Run* run);
 void AddTasks(CLI::App* app, CommonOptions* common, Run* run);
 void AddReward(CLI::App* app, CommonOptions* common, Run* run);
 void AddTrain(CLI::App* app, CommonOptions* common, Run* run);

@@ -51,6 +51,7 @@ int Main(int argc, char** argv) {
   cli::AddGrasps(&app, &common, &run);
   cli::AddLibrary(&app, &common, &run);
   cli::AddPrior(&app, &common, &run);
+  cli::AddTwin(&app, &common, &run);
   cli::AddTasks(&app, &common, &run);
   cli::AddReward(&app, &common, &run);
   cli::AddTrain(&app, &common, &run);

@@ -54,7 +54,8 @@ void PrintTrainedJson(const std::vector<workflows::TrainedPrior>& trained) {
 bool HoldsState(const std::filesystem::path& folder) {
   return std::filesystem::exists(workflows::ShapeWeights(folder).string() + ".state") ||
          std::filesystem::exists(workflows::ViewWeights(folder).string() + ".state") ||
-         std::filesystem::exists(workflows::LibraryWeights(folder).string() + ".state");
+         std::filesystem::exists(workflows::LibraryWeights(folder).string() + ".state") ||
+         std::filesystem::exists(workflows::DetectorWeights(folder).string() + ".state");
 }
 
 int TrainPriors(PriorFlags flags, const CommonOptions& common) {
@@ -65,6 +66,7 @@ int TrainPriors(PriorFlags flags, const CommonOptions& common) {
   flags.request.shape = flags.only.empty() || flags.only == "shape";
   flags.request.view = flags.only.empty() || flags.only == "view";
   flags.request.library = flags.only.empty() || flags.only == "library";
+  flags.request.detector = flags.only.empty() || flags.only == "detector";
   for (auto* options : {&flags.request.shape_options, &flags.request.view_options}) {
     options->seed = common.seed;
     options->trainer.resume = flags.resume;
@@ -79,6 +81,10 @@ int TrainPriors(PriorFlags flags, const CommonOptions& common) {
   library.seed = common.seed;
   library.trainer.resume = flags.resume;
   if (flags.rate > 0.0) library.trainer.learning_rate = flags.rate;
+  twin::DetectorTrainingOptions& detector = flags.request.detector_options;
+  detector.seed = common.seed;
+  detector.trainer.resume = flags.resume;
+  if (flags.rate > 0.0) detector.trainer.learning_rate = flags.rate;
   if (!flags.from.empty()) {
     flags.request.shape_options.start = workflows::ShapeWeights(flags.from);
     flags.request.view_options.start = workflows::ViewWeights(flags.from);
@@ -143,9 +149,9 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->default_str("48,96,192,256");
   command->add_option("-o,--output", flags->request.output, "The folder for the weights")
       ->required();
-  command->add_option("--only", flags->only, "Train only one of the three")
+  command->add_option("--only", flags->only, "Train only one of the four")
       ->default_str("all")
-      ->check(CLI::IsMember({"shape", "view", "library"}));
+      ->check(CLI::IsMember({"shape", "view", "library", "detector"}));
   command
       ->add_option("--shape-steps", flags->request.shape_options.trainer.steps,
                    "Steps of the shape prior")
@@ -158,6 +164,20 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option("--library-steps", flags->request.library_options.trainer.steps,
                    "Steps of the library prior")
       ->capture_default_str();
+  command
+      ->add_option("--detector-steps", flags->request.detector_options.trainer.steps,
+                   "Steps of the detector of objects on tables")
+      ->capture_default_str();
+  command
+      ->add_option("--detector-pool", flags->request.detector_options.pool,
+                   "Pictures in memory for the detector (200 KB each)")
+      ->check(Positive())
+      ->capture_default_str();
+  command
+      ->add_option("--photos", flags->request.photos,
+                   "Photos, or folders of them, behind and below the objects of the detector's "
+                   "pictures")
+      ->default_str("patterns alone");
   command
       ->add_option("--library-pool", flags->request.library_options.pool,
                    "Pictures in memory for the library prior")

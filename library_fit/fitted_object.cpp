@@ -33,15 +33,15 @@ core::Camera ToCrop(core::Camera camera, const FitPhoto& photo, int side) {
 }
 
 // Returns the mean colours in the photo of the looks that it shows, by their names.
-std::map<std::string, Eigen::Vector3f> SeenColors(const FittedInstance& fit,
+std::map<std::string, Eigen::Vector3f> SeenColors(const SeenInstance& seen_instance,
                                                   const FitPhoto& photo) {
   const FitTarget target = TargetOf(photo, kColorSide);
-  const core::TexturedMesh mesh = InstanceMesh(fit.instance);
+  const core::TexturedMesh mesh = InstanceMesh(seen_instance.instance);
   render::Scene scene;
   scene.Add(&mesh);
   scene.Commit();
   const render::ForwardBuffers seen =
-      render::RenderForward(scene, ToCrop(PhotoCamera(fit, photo), photo, kColorSide));
+      render::RenderForward(scene, ToCrop(seen_instance.camera, photo, kColorSide));
   std::map<std::string, std::pair<Eigen::Vector3f, int>> sums;
   for (size_t i = 0; i < seen.triangle.size(); ++i) {
     if (seen.triangle[i] < 0 || target.opacity[i] < 0.9f) continue;
@@ -68,17 +68,17 @@ void TakeColors(const std::map<std::string, Eigen::Vector3f>& colors,
   }
 }
 
-// Returns the mesh of `instance`, the fitted one or that in another size, with the photo's colours
+// Returns the mesh of `instance`, the seen one or that in another size, with the photo's colours
 // where it shows the surface and the colours of its looks elsewhere. The triangles keep their
 // order.
-core::TexturedMesh PaintedInstance(const FittedInstance& fit, const Instance& instance,
-                                   const FitPhoto& photo,
-                                   const std::map<std::string, Eigen::Vector3f>& colors) {
+core::TexturedMesh Painted(const SeenInstance& seen, const Instance& instance,
+                           const FitPhoto& photo,
+                           const std::map<std::string, Eigen::Vector3f>& colors) {
   core::TexturedMesh mesh = InstanceMesh(instance);
-  core::Camera camera = PhotoCamera(fit, photo);
+  core::Camera camera = seen.camera;
   camera.world_from_camera.translation() *=
       core::Bounds(mesh.mesh).sizes().z() /
-      core::Bounds(InstanceMesh(fit.instance).mesh).sizes().z();
+      core::Bounds(InstanceMesh(seen.instance).mesh).sizes().z();
   TakeColors(colors, &mesh.materials);
   std::vector<Eigen::Vector3f> hidden(mesh.mesh.vertices.size(), Eigen::Vector3f::Constant(0.5f));
   for (size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
@@ -125,26 +125,35 @@ FittedMesh TexturedFit(const FittedInstance& fit, const FitPhoto& photo) {
   return {texture::ProjectPhoto(mesh.mesh, camera, photo.photo, photo.alpha, mirror), camera};
 }
 
-assets::ArticulatedAsset FittedAsset(const FittedInstance& fit, const FitPhoto& photo,
-                                     double height) {
-  const FitKind& kind = FitKinds().at(static_cast<size_t>(fit.instance.kind));
+assets::ArticulatedAsset PaintedAsset(const SeenInstance& seen, const FitPhoto& photo,
+                                      double height) {
+  const FitKind& kind = FitKinds().at(static_cast<size_t>(seen.instance.kind));
   if (kind.articulated == nullptr) throw core::Error("a rigid kind has no joints", kind.name);
-  Instance instance = fit.instance;
+  Instance instance = seen.instance;
   // Some measures of the generators do not scale, such as those of handles and burners.
   for (int i = 0; height > 0.0 && i < kHeightSteps; ++i) {
     instance.size *= height / core::Bounds(InstanceMesh(instance).mesh).sizes().z();
   }
   assets::ArticulatedAsset asset = InstanceAsset(instance);
-  const std::map<std::string, Eigen::Vector3f> colors = SeenColors(fit, photo);
+  const std::map<std::string, Eigen::Vector3f> colors = SeenColors(seen, photo);
   for (assets::ArticulatedLink& link : asset.links) {
     TakeColors(colors, &link.visual.materials);
   }
-  TakeTexture(PaintedInstance(fit, instance, photo, colors), &asset.links);
+  TakeTexture(Painted(seen, instance, photo, colors), &asset.links);
   return asset;
 }
 
+core::TexturedMesh PaintedInstance(const SeenInstance& seen, const FitPhoto& photo) {
+  return Painted(seen, seen.instance, photo, SeenColors(seen, photo));
+}
+
+assets::ArticulatedAsset FittedAsset(const FittedInstance& fit, const FitPhoto& photo,
+                                     double height) {
+  return PaintedAsset({fit.instance, PhotoCamera(fit, photo)}, photo, height);
+}
+
 core::TexturedMesh PaintedFit(const FittedInstance& fit, const FitPhoto& photo) {
-  return PaintedInstance(fit, fit.instance, photo, SeenColors(fit, photo));
+  return PaintedInstance({fit.instance, PhotoCamera(fit, photo)}, photo);
 }
 
 PhotoAgreement AgreementWithPhoto(const core::TexturedMesh& mesh, const core::Camera& camera,

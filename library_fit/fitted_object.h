@@ -19,6 +19,18 @@ struct FittedMesh {
 // Throws core::Error where the camera sees nothing of the mesh.
 FittedMesh TexturedFit(const FittedInstance& fit, const FitPhoto& photo);
 
+// An instance and the camera that sees it, for the photo's pixels, in the frame of InstanceMesh.
+struct SeenInstance {
+  Instance instance;
+  core::Camera camera;
+};
+
+// Returns the instance with the photo's colours, as PaintedFit does, and an articulated one as
+// FittedAsset does.
+core::TexturedMesh PaintedInstance(const SeenInstance& seen, const FitPhoto& photo);
+assets::ArticulatedAsset PaintedAsset(const SeenInstance& seen, const FitPhoto& photo,
+                                      double height = 0.0);
+
 // Returns the fitted articulated object in the library's frame, the front towards -x. Surfaces that
 // the photo shows take its colours, as a texture that all links share. The others take the mean
 // colour in the photo of their look, and looks that the photo does not show keep the library's.

@@ -10,6 +10,7 @@
 #include "twin/camera_search.h"
 #include "twin/joint_refinement.h"
 #include "twin/observed_object.h"
+#include "twin/pose_uncertainty.h"
 
 namespace simwright::twin {
 namespace {
@@ -141,6 +142,15 @@ TableReconstruction ReconstructTable(const core::Image& photo, const Detections&
     table.objects.push_back(std::move(object));
   }
   RefineTogether(detections, guess, &table);
+  const core::Camera camera = table.camera.At(width, height);
+  for (size_t k = 0; k < table.objects.size(); ++k) {
+    ReconstructedObject& object = table.objects[k];
+    const PoseUncertainty uncertainty =
+        UncertaintyOf(object.fit, observed[k].box, camera, object.hidden, table.log_scale_error);
+    object.position_error = uncertainty.position;
+    object.yaw_error = uncertainty.yaw;
+    object.size_error = uncertainty.size;
+  }
   return table;
 }
 

@@ -74,16 +74,6 @@ std::string TableOf(const std::vector<MeshNumbers>& meshes) {
          TableRow("size", meshes, [](Numbers n) { return physics_params::SizeText(n.sides); });
 }
 
-std::string FindingsList(const core::Findings& findings) {
-  std::string list;
-  for (const core::Finding& finding : findings) {
-    std::string line = std::string(core::SeverityName(finding.severity)) + ": " + finding.sentence;
-    if (!finding.remedy.empty()) line += " (" + finding.remedy + ")";
-    list += "<li>" + core::EscapedMarkup(line + " [" + finding.code + "]") + "</li>\n";
-  }
-  return list;
-}
-
 }  // namespace
 
 void WriteImportReport(const ImportReport& report, const std::filesystem::path& folder) {

@@ -1,17 +1,19 @@
 #include "workflows/priors/prior_training.h"
 
 #include <iterator>
+#include <utility>
 
 #include "core/error.h"
 #include "importers/catalogue_meshes.h"
 #include "library_fit/fit_kinds.h"
+#include "twin/scene_sources.h"
 
 namespace simwright::workflows {
 namespace {
 
 // Reports missing files before the minutes that reading takes.
 void RequireFiles(const PriorTrainingRequest& request) {
-  const bool needs_meshes = request.shape || request.view;
+  const bool needs_meshes = request.shape || request.view || request.detector;
   for (const std::filesystem::path& path : request.catalogues) {
     if (needs_meshes && !std::filesystem::exists(path)) {
       throw core::Error("no such catalogue", path.string(),
@@ -74,12 +76,16 @@ std::filesystem::path LibraryWeights(const std::filesystem::path& folder) {
   return folder / "library_prior.pt";
 }
 
+std::filesystem::path DetectorWeights(const std::filesystem::path& folder) {
+  return folder / "table_detector.pt";
+}
+
 std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
                                       const TrainedPriorListener& listener) {
   RequireFiles(request);
   std::vector<core::TexturedMesh> meshes;
   for (const std::filesystem::path& path : request.catalogues) {
-    if (!request.shape && !request.view) break;
+    if (!request.shape && !request.view && !request.detector) break;
     std::vector<core::TexturedMesh> read = importers::ReadCatalogue(path, progress);
     std::move(read.begin(), read.end(), std::back_inserter(meshes));
   }
@@ -108,6 +114,15 @@ std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core:
     trained.push_back({"library", library,
                        library_fit::TrainLibraryNetwork(request.library_options, library, progress,
                                                         named("library", library))});
+  }
+  if (request.detector) {
+    twin::TableSceneSources sources;
+    sources.photos = twin::ReadScenePhotos(request.photos);
+    sources.meshes = twin::TableMeshes(std::move(meshes));
+    const std::filesystem::path detector = DetectorWeights(request.output);
+    trained.push_back({"detector", detector,
+                       twin::TrainDetector(sources, request.detector_options, detector, progress,
+                                           named("detector", detector))});
   }
   return trained;
 }

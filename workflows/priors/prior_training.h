@@ -8,6 +8,7 @@
 #include "asset_lift/priors/prior_training.h"
 #include "core/progress.h"
 #include "library_fit/library_training.h"
+#include "twin/detector_training.h"
 
 namespace simwright::workflows {
 
@@ -18,9 +19,15 @@ struct PriorTrainingRequest {
   bool shape = true;             // trains the shape prior
   bool view = true;              // trains the view prior, which uses the shape prior in the folder
   bool library = true;           // trains the prior of the library's kinds, on the library alone
+  bool detector = true;  // trains the detector of objects on tables, on the library, the small
+                         // pieces of the catalogues and `photos`
+  // Photos of tables, walls and rooms, or folders of them, that stand behind and below the objects;
+  // empty: only patterns.
+  std::vector<std::filesystem::path> photos;
   // Their samplers are set by TrainPriors to instances of the library, unless the shares are 0.
   asset_lift::PriorTrainingOptions shape_options, view_options;
   library_fit::LibraryTrainingOptions library_options;
+  twin::DetectorTrainingOptions detector_options;
 
   // Sets the options that reproduce the shipped weights.
   PriorTrainingRequest();
@@ -34,9 +41,10 @@ std::filesystem::path DefaultTrainingCatalogue();
 std::filesystem::path ShapeWeights(const std::filesystem::path& folder);
 std::filesystem::path ViewWeights(const std::filesystem::path& folder);
 std::filesystem::path LibraryWeights(const std::filesystem::path& folder);
+std::filesystem::path DetectorWeights(const std::filesystem::path& folder);
 
 struct TrainedPrior {
-  std::string name;                        // "shape", "view" or "library"
+  std::string name;                        // "shape", "view", "library" or "detector"
   std::filesystem::path weights;           // a file in the request's folder
   asset_lift::PriorTrainingReport report;  // the report on the last steps
 };

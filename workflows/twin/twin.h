@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/finding.h"
+#include "core/progress.h"
+#include "workflows/twin/twin_record.h"
+
+namespace simwright::workflows {
+
+// What the user knows of the camera; 0: unknown. Angles in degrees.
+struct TwinCameraFlags {
+  double fov = 0.0;        // horizontal field of view
+  double elevation = 0.0;  // of the optical axis below the horizon
+  double height = 0.0;     // m, above the table
+  bool upright = false;    // the photo is not rolled
+
+  // Returns false, with the reason, for a value outside of what a photo of a table has.
+  bool IsValid(std::string* error) const;
+};
+
+struct TwinRequest {
+  std::filesystem::path photo;
+  // The user's boxes, masks and categories (docs/twin.md) in place of the detector; empty: none.
+  std::filesystem::path objects;
+  std::filesystem::path detector;  // weights; empty: the shipped ones
+  TwinCameraFlags camera;
+  int most_objects = 25;  // the largest detections are kept
+  std::uint64_t seed = 1;
+  std::filesystem::path output;
+  bool force = false;
+};
+
+struct TwinOutcome {
+  std::filesystem::path folder, page;
+  TwinRecord record;
+  core::Findings findings;
+  double seconds = 0.0;
+};
+
+// Rebuilds the table that a photo shows: a folder with an asset for each object, twin.json with
+// their poses and uncertainties (which the commands of `scene` read), twin.png and index.html.
+// Throws core::Error for an unreadable photo, one without an object on a table, damaged boxes or
+// weights, and an output that exists; throws core::Cancelled.
+TwinOutcome MakeTwin(const TwinRequest& request, core::Progress* progress);
+
+// Formats the outcome for a terminal: a line for each object.
+std::string TwinTable(const TwinOutcome& outcome);
+
+}  // namespace simwright::workflows

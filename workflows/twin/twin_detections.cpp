@@ -1,0 +1,107 @@
+#include "workflows/twin/twin_detections.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "asset_lift/segmentation/box_matte.h"
+#include "core/error.h"
+#include "core/json.h"
+#include "library_fit/fit_kinds.h"
+#include "physics_params/category_resolution.h"
+
+namespace simwright::workflows {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uint64_t kMostObjectsBytes = 1u << 20;
+constexpr int kMaskInside = 128;
+
+Eigen::AlignedBox2d BoxOfMask(const core::Image& mask) {
+  Eigen::AlignedBox2d box;
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
+      if (*mask.At(x, y) < kMaskInside) continue;
+      box.extend(Eigen::Vector2d(x, y));
+      box.extend(Eigen::Vector2d(x + 1, y + 1));
+    }
+  }
+  return box;
+}
+
+// Reads a mask beside the file, as grey, in the photo's size.
+core::Image ReadMask(const core::JsonField& field, const fs::path& folder,
+                     const core::Image& photo) {
+  const fs::path name = field.Text();
+  if (name.empty() || name.has_parent_path()) {
+    field.Fail("must be the name of a file beside this one");
+  }
+  const core::Image read = core::Resize(core::ReadImage(folder / name), photo.width, photo.height);
+  core::Image mask(photo.width, photo.height, 1);
+  for (size_t i = 0; i < mask.pixels.size(); ++i) {
+    mask.pixels[i] = read.pixels[i * static_cast<size_t>(read.channels)];
+  }
+  return mask;
+}
+
+}  // namespace
+
+TwinDetections ReadTwinObjects(const fs::path& file, const core::Image& photo, int width,
+                               int height) {
+  const core::JsonDocument document = core::JsonDocument::Read(file, kMostObjectsBytes);
+  TwinDetections detections;
+  detections.found.camera = twin::TableCameraGuess();
+  const double sx = static_cast<double>(photo.width) / width;
+  const double sy = static_cast<double>(photo.height) / height;
+  for (const core::JsonField& object : document.root()["objects"].Elements()) {
+    object.RequireMembers({"box"}, {"category", "mask"});
+    const Eigen::Vector4d box = object["box"].Vector<4>();
+    if (!(box[0] < box[2]) || !(box[1] < box[3]) || box[2] <= 0.0 || box[3] <= 0.0 ||
+        box[0] >= width || box[1] >= height) {
+      object["box"].Fail("must be left, top, right, bottom in pixels of the photo");
+    }
+    twin::Detection detection;
+    detection.alpha = object.Has("mask") ? ReadMask(object["mask"], file.parent_path(), photo)
+                                         : asset_lift::BoxMatte(
+                                               photo, {Eigen::Vector2d(sx * box[0], sy * box[1]),
+                                                       Eigen::Vector2d(sx * box[2], sy * box[3])});
+    detection.box = BoxOfMask(detection.alpha);
+    if (detection.box.isEmpty()) object.Fail("shows no pixel of an object");
+    detection.confidence = 1.0;
+    detection.cut = detection.box.min().x() < 2.0 || detection.box.min().y() < 2.0 ||
+                    detection.box.max().x() > photo.width - 2.0 ||
+                    detection.box.max().y() > photo.height - 2.0;
+    std::vector<int> kinds;
+    if (object.Has("category")) {
+      const std::string named = object["category"].Name();
+      kinds = library_fit::KindsOfCategory(physics_params::RequireCategory(named).category->name);
+      if (kinds.empty()) {
+        object["category"].Fail("the library has no kind of this category",
+                                "leave it out, or see simwright library --list");
+      }
+    }
+    detections.found.objects.push_back(std::move(detection));
+    detections.kinds.push_back(std::move(kinds));
+  }
+  return detections;
+}
+
+void LimitDetections(int most, twin::Detections* found, core::Findings* findings) {
+  const int count = static_cast<int>(found->objects.size());
+  if (count > most) {
+    findings->push_back({"twin-many-objects", core::Severity::kWarning, "",
+                         std::to_string(count) + " objects are detected; the " +
+                             std::to_string(most) + " largest are rebuilt",
+                         static_cast<double>(count), "--most-objects takes more"});
+    found->objects.resize(static_cast<size_t>(most));
+  }
+  const auto cut = std::count_if(found->objects.begin(), found->objects.end(),
+                                 [](const twin::Detection& object) { return object.cut; });
+  if (cut == 0) return;
+  findings->push_back({"twin-cut-off", core::Severity::kInfo, "",
+                       std::to_string(cut) + " of the objects reach the border of the photo; what "
+                                             "lies beyond it is guessed",
+                       static_cast<double>(cut), ""});
+}
+
+}  // namespace simwright::workflows

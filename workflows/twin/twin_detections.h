@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/finding.h"
+#include "core/image.h"
+#include "twin/object_detector.h"
+
+namespace simwright::workflows {
+
+// The objects of a photo with the kinds that each may be.
+struct TwinDetections {
+  twin::Detections found;
+  std::vector<std::vector<int>> kinds;  // by object; empty: any
+};
+
+// Reads the user's objects (docs/twin.md): boxes in pixels of the photo of `width` x `height`,
+// which is scaled to the size of `photo`; each with an optional category and mask file beside the
+// JSON file. The camera is a general guess. Throws core::Error, naming the member, for a damaged
+// file, a box outside of the photo, or a category without a kind of the library.
+TwinDetections ReadTwinObjects(const std::filesystem::path& file, const core::Image& photo,
+                               int width, int height);
+
+// Keeps the `most` largest detections, with a finding about the others, and reports those that the
+// photo's border cuts off.
+void LimitDetections(int most, twin::Detections* found, core::Findings* findings);
+
+}  // namespace simwright::workflows
