@@ -11,11 +11,11 @@
 namespace simwright::texture {
 
 struct DelightingOptions {
-  int pairs = 30'000;           // of pixels that the light is fitted to
-  double chroma_scale = 0.015;  // difference of chromaticities at which a pair counts 0.6
-  double edge_scale = 0.10;     // relative misfit at which a pair counts half: an albedo's edge
+  int pairs = 30'000;          // of pixels that the light is fitted to
+  double chroma_scale = 0.02;  // difference of chromaticities at which a pair counts 0.6
+  double edge_scale = 0.2;     // relative misfit at which a pair counts half: an albedo's edge
   // The ridge towards uniform light, relative to the pairs' weight, of bands 1 and 2.
-  double band1_ridge = 0.0015, band2_ridge = 0.006;
+  double band1_ridge = 0.0015, band2_ridge = 0.005;
   double least_shading = 0.2;  // relative to the mean: darker shading is divided out in part
   int occlusion_rays = 24;     // of a pixel
   int occlusion_side = 256;    // longer side of the picture in which openness is computed, pixels

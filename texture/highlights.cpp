@@ -8,10 +8,13 @@
 namespace simwright::texture {
 namespace {
 
-constexpr float kBrighter = 1.25f;       // than the median albedo about a pixel
-constexpr float kLessSaturated = 0.92f;  // of the median's saturation, unless that is grey
+// Brightness relative to the median albedo about a pixel: of a highlight's core, and of its rim.
+constexpr float kCore = 1.35f, kRim = 1.12f;
+constexpr float kLessSaturated = 0.88f;  // of the median's saturation, unless that is grey
 constexpr float kGreySaturation = 0.12f;
 constexpr double kLargestShare = 0.12;  // of the object, of one highlight
+constexpr float kSharpest = 1.25f;      // step of brightness at the border: print has sharp borders
+constexpr double kFlank = 0.25;  // least share of a highlight's pixels below half of its height
 constexpr float kNormalSpread = 0.86f;  // mean cosine of a highlight's normals to their mean
 
 float SaturationOf(const Eigen::Vector3f& color) {
@@ -79,12 +82,14 @@ class MedianAlbedo {
   std::vector<Eigen::Vector3f> medians_;
 };
 
-// Returns the connected regions (4 neighbours) of marked pixels.
-std::vector<std::vector<int>> Regions(const ObjectPixels& pixels, const std::vector<char>& marked) {
+// Returns the connected regions (4 neighbours) of marked pixels that have a pixel of level 2.
+std::vector<std::vector<int>> Regions(const ObjectPixels& pixels, const std::vector<char>& level) {
   std::vector<std::vector<int>> regions;
-  std::vector<char> done(marked.size(), 0);
+  std::vector<char> done(level.size(), 0);
   for (int start = 0; start < pixels.count(); ++start) {
-    if (!marked[static_cast<std::size_t>(start)] || done[static_cast<std::size_t>(start)]) continue;
+    if (level[static_cast<std::size_t>(start)] < 2 || done[static_cast<std::size_t>(start)]) {
+      continue;
+    }
     std::vector<int>& region = regions.emplace_back(1, start);
     done[static_cast<std::size_t>(start)] = 1;
     for (std::size_t next = 0; next < region.size(); ++next) {
@@ -95,7 +100,7 @@ std::vector<std::vector<int>> Regions(const ObjectPixels& pixels, const std::vec
         const int nx = x + kDx[k], ny = y + kDy[k];
         if (nx < 0 || ny < 0 || nx >= pixels.width || ny >= pixels.height) continue;
         const int other = pixels.index[static_cast<std::size_t>(ny * pixels.width + nx)];
-        if (other < 0 || !marked[static_cast<std::size_t>(other)]) continue;
+        if (other < 0 || level[static_cast<std::size_t>(other)] < 1) continue;
         if (done[static_cast<std::size_t>(other)]) continue;
         done[static_cast<std::size_t>(other)] = 1;
         region.push_back(other);
@@ -103,6 +108,45 @@ std::vector<std::vector<int>> Regions(const ObjectPixels& pixels, const std::vec
     }
   }
   return regions;
+}
+
+// Returns the mean ratio of the albedo's brightness inside to outside, of neighbours across a
+// region's border; 1 without a border inside the object.
+float BorderStep(const ObjectPixels& pixels, const std::vector<int>& region,
+                 const std::vector<char>& level, const std::vector<Eigen::Vector3f>& albedo) {
+  double sum = 0.0;
+  int count = 0;
+  for (const int i : region) {
+    const int at = pixels.at[static_cast<std::size_t>(i)];
+    const int x = at % pixels.width, y = at / pixels.width;
+    constexpr int kDx[] = {1, -1, 0, 0}, kDy[] = {0, 0, 1, -1};
+    for (int k = 0; k < 4; ++k) {
+      const int nx = x + kDx[k], ny = y + kDy[k];
+      if (nx < 0 || ny < 0 || nx >= pixels.width || ny >= pixels.height) continue;
+      const int other = pixels.index[static_cast<std::size_t>(ny * pixels.width + nx)];
+      if (other < 0 || level[static_cast<std::size_t>(other)] > 0) continue;
+      sum += Brightness(albedo[static_cast<std::size_t>(i)]) /
+             Brightness(albedo[static_cast<std::size_t>(other)]);
+      ++count;
+    }
+  }
+  return count > 0 ? static_cast<float>(sum / count) : 1.0f;
+}
+
+// Returns the share of a region's pixels that stand out by less than half of the region's height
+// (95th percentile) above the usual albedo. Print has few of them, also where its border is
+// blurred.
+double FlankShare(const std::vector<int>& region, const MedianAlbedo& median,
+                  const std::vector<Eigen::Vector3f>& albedo) {
+  std::vector<float> excess;
+  for (const int i : region) {
+    excess.push_back(Brightness(albedo[static_cast<std::size_t>(i)]) / Brightness(median.At(i)) -
+                     1.0f);
+  }
+  std::sort(excess.begin(), excess.end());
+  const float height = excess[(excess.size() - 1) * 95 / 100];
+  const auto half = std::lower_bound(excess.begin(), excess.end(), 0.5f * height);
+  return static_cast<double>(half - excess.begin()) / static_cast<double>(excess.size());
 }
 
 // Returns true if a region lies where the surface mirrors the brighter side of the light.
@@ -125,17 +169,20 @@ std::vector<char> ReplaceHighlights(const ObjectPixels& pixels,
                                     const Eigen::Vector3f& viewer,
                                     std::vector<Eigen::Vector3f>* albedo) {
   const MedianAlbedo median(pixels, *albedo);
-  std::vector<char> marked(albedo->size(), 0);
+  std::vector<char> level(albedo->size(), 0);
   for (int i = 0; i < pixels.count(); ++i) {
     const Eigen::Vector3f& a = (*albedo)[static_cast<std::size_t>(i)];
     const Eigen::Vector3f& usual = median.At(i);
     const float saturation = SaturationOf(usual);
     const bool pale = saturation < kGreySaturation || SaturationOf(a) < kLessSaturated * saturation;
-    marked[static_cast<std::size_t>(i)] = Brightness(a) > kBrighter * Brightness(usual) && pale;
+    const float ratio = Brightness(a) / Brightness(usual);
+    if (pale) level[static_cast<std::size_t>(i)] = ratio > kCore ? 2 : (ratio > kRim ? 1 : 0);
   }
   std::vector<char> replaced(albedo->size(), 0);
-  for (const std::vector<int>& region : Regions(pixels, marked)) {
+  for (const std::vector<int>& region : Regions(pixels, level)) {
     if (static_cast<double>(region.size()) > kLargestShare * pixels.count()) continue;
+    if (BorderStep(pixels, region, level, *albedo) > kSharpest) continue;
+    if (FlankShare(region, median, *albedo) < kFlank) continue;
     if (!ReflectsTheLight(pixels, region, light, viewer)) continue;
     for (const int i : region) {
       replaced[static_cast<std::size_t>(i)] = 1;

@@ -67,7 +67,7 @@ int Run(int argc, char** argv) {
   for (const std::string& kind : tuned ? texture::kTunedKinds : texture::kHeldOutKinds) {
     for (int seed = 1; seed <= seeds; ++seed) {
       const Row row =
-          MeasureDelighting(kind, static_cast<std::uint64_t>(seed + (tuned ? 100 : 0)), folder);
+          MeasureDelighting(kind, static_cast<std::uint64_t>(seed + (tuned ? 100 : 10)), folder);
       sum.photo += row.photo;
       sum.delit += row.delit;
       sum.lumpy += row.lumpy;

@@ -29,7 +29,8 @@ struct LitPhoto {
 // and a clipped exposure. None of this uses spherical harmonics. 288 x 288 pixels.
 class LitPhotoStudio {
  public:
-  LitPhotoStudio(const std::string& kind, std::uint64_t seed) : rng_(core::StreamRng(seed, 77)) {
+  LitPhotoStudio(const std::string& kind, std::uint64_t seed)
+      : rng_(core::StreamRng(seed, 100 * kind.size() + static_cast<std::uint64_t>(kind[0]))) {
     library::RigidObject object = library::MakeRigidObject(*library::FindRigidKind(kind), seed);
     visual_ = object.visual;
     photo_.mesh = visual_.mesh;
