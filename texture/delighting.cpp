@@ -129,6 +129,16 @@ void RequireUsable(const core::TriangleMesh& mesh, const PhotoView& view,
   }
 }
 
+// Dims the albedo if more than a fiftieth of it would be brighter than white.
+void KeepBelowWhite(std::vector<Eigen::Vector3f>* albedo) {
+  std::vector<float> levels;
+  for (const Eigen::Vector3f& color : *albedo) levels.push_back(color.maxCoeff());
+  const auto high = levels.begin() + static_cast<long>(levels.size() * 98 / 100);
+  std::nth_element(levels.begin(), high, levels.end());
+  if (*high <= 1.0f) return;
+  for (Eigen::Vector3f& color : *albedo) color /= *high;
+}
+
 // Writes the albedo into the picture; brighter than white is cut off.
 void StoreAlbedo(const ObjectPixels& pixels, const std::vector<Eigen::Vector3f>& albedo,
                  core::Image* picture) {
@@ -193,6 +203,7 @@ DelitPhoto DelightPhoto(const core::TriangleMesh& mesh, const PhotoView& view,
       }
     }
   }
+  KeepBelowWhite(&albedo);
   StoreAlbedo(pixels, albedo, &delit.albedo);
   return delit;
 }

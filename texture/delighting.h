@@ -41,8 +41,9 @@ struct DelitPhoto {
 // albedo, their colours have the ratio of their shadings. Pairs that disagree are edges of the
 // albedo and lose their weight (iteratively reweighted least squares, Cauchy); a ridge keeps the
 // light uniform where the surface does not show it. The scale of light and albedo cannot be told
-// apart: the mean shading is 1. Highlights, where a pixel is brighter and less saturated than the
-// albedo about it and the normal reflects the brighter side of the light, take that albedo.
+// apart: the mean shading is 1, or larger if the albedo would be brighter than white. Highlights,
+// where a pixel is brighter and less saturated than the albedo about it and the normal reflects the
+// brighter side of the light, take that albedo.
 //
 // Requires a photo (1, 3 or 4 channels), a matte and a camera of one size and a mesh with faces.
 // Throws core::Error otherwise, for options that are invalid, or if the camera sees nothing of the

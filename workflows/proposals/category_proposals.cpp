@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,6 +24,8 @@ using physics_params::WordNet;
 constexpr double kHeaviest = 5.0;                   // kg, at the middle of the row's interval
 constexpr double kShortest = 0.01, kLongest = 0.6;  // m, of the longest side's middle
 constexpr int kMostPerRow = 3;
+// A chosen category lowers the scores of others with its last word, and of its noun of the theme.
+constexpr double kSameWord = 0.8, kSameNoun = 0.95;
 constexpr int kHyponymSteps = 4;
 constexpr int kAskedTimes = 3;
 constexpr std::size_t kLongestPrompt = 300;  // bytes
@@ -84,53 +87,79 @@ std::vector<Anchor> AnchorsOf(const std::string& theme, const WordNet& wordnet,
   return anchors;
 }
 
+// The relevance of a category, and the anchor that it comes from.
+struct Relevance {
+  double score = 0.0;
+  std::size_t anchor = 0;
+};
+
+// A proposal that may be chosen.
+struct Candidate {
+  CategoryProposal proposal;
+  std::size_t anchor = 0;
+};
+
 // Returns the relevance of a synset: an anchor's weight, less by its distance below it; half of
 // WordNet's similarity elsewhere.
-double Relevance(const WordNet& wordnet, WordNet::Synset synset,
-                 const std::vector<Anchor>& anchors) {
-  double best = 0.0;
-  for (const Anchor& anchor : anchors) {
+Relevance RelevanceOf(const WordNet& wordnet, WordNet::Synset synset,
+                      const std::vector<Anchor>& anchors) {
+  Relevance best;
+  for (std::size_t a = 0; a < anchors.size(); ++a) {
+    const Anchor& anchor = anchors[a];
     for (std::size_t sense = 0; sense < anchor.senses.size(); ++sense) {
       const double weight = anchor.weight * (sense == 0 ? 1.0 : 0.8);
       const std::optional<int> steps = wordnet.StepsUp(synset, anchor.senses[sense]);
       const double value = steps ? weight * std::max(0.6, 1.0 - 0.04 * *steps)
                                  : 0.5 * weight * wordnet.Similarity(synset, anchor.senses[sense]);
-      best = std::max(best, value);
+      if (value > best.score) best = {value, a};
     }
   }
   return best;
 }
 
-// Returns the senses of a row's name or, for "plastic mug", of its last word.
+// Returns the first senses of a row's name or, for "plastic mug", of its last word.
 std::vector<WordNet::Synset> SensesOfName(const WordNet& wordnet, const std::string& name) {
   std::vector<WordNet::Synset> senses = wordnet.PhysicalSenses(name);
   const std::size_t blank = name.rfind(' ');
   if (senses.empty() && blank != std::string::npos) {
     senses = wordnet.PhysicalSenses(name.substr(blank + 1));
   }
-  if (senses.size() > 1) senses.resize(1);
+  if (senses.size() > 4) senses.resize(4);
   return senses;
 }
 
-std::vector<CategoryProposal> RowProposals(const WordNet& wordnet,
-                                           const std::vector<Anchor>& anchors) {
-  std::vector<CategoryProposal> proposals;
+// Returns the names of rows that are variants of others by material or size.
+std::set<std::string> VariantRows() {
+  std::set<std::string> names;
   for (const Category& row : KnowledgeBase::Shipped().categories()) {
-    if (row.name == "object" || !WhyNotHandled(row).empty()) continue;
-    double score = 0.0;
-    for (const WordNet::Synset sense : SensesOfName(wordnet, row.name)) {
-      if (IsHandledKind(wordnet, sense)) {
-        score = std::max(score, Relevance(wordnet, sense, anchors));
-      }
-    }
-    if (score > 0.0) proposals.push_back({row.name, "", "knowledge base", row.name, score});
+    for (const physics_params::Variant& variant : row.variants) names.insert(variant.category);
   }
-  return proposals;
+  return names;
 }
 
-std::vector<CategoryProposal> HyponymProposals(const WordNet& wordnet,
-                                               const std::vector<Anchor>& anchors) {
-  std::vector<CategoryProposal> proposals;
+std::vector<Candidate> RowCandidates(const WordNet& wordnet, const std::vector<Anchor>& anchors) {
+  std::vector<Candidate> candidates;
+  const std::set<std::string> variants = VariantRows();
+  for (const Category& row : KnowledgeBase::Shipped().categories()) {
+    if (row.name == "object" || variants.contains(row.name)) continue;
+    if (!WhyNotHandled(row).empty()) continue;
+    Relevance best;
+    double factor = 1.0;  // a household row means the first senses rather than the later ones
+    for (const WordNet::Synset sense : SensesOfName(wordnet, row.name)) {
+      Relevance relevance = RelevanceOf(wordnet, sense, anchors);
+      relevance.score *= factor;
+      if (IsHandledKind(wordnet, sense) && relevance.score > best.score) best = relevance;
+      factor -= 0.05;
+    }
+    if (best.score <= 0.0) continue;
+    candidates.push_back({{row.name, "", "knowledge base", row.name, best.score}, best.anchor});
+  }
+  return candidates;
+}
+
+std::vector<Candidate> HyponymCandidates(const WordNet& wordnet,
+                                         const std::vector<Anchor>& anchors) {
+  std::vector<Candidate> candidates;
   const KnowledgeBase& base = KnowledgeBase::Shipped();
   for (const Anchor& anchor : anchors) {
     for (const WordNet::Synset synset : wordnet.Hyponyms(anchor.senses.front(), kHyponymSteps)) {
@@ -147,11 +176,44 @@ std::vector<CategoryProposal> HyponymProposals(const WordNet& wordnet,
       const physics_params::Resolution row = physics_params::ResolveCategory(name, base, &wordnet);
       if (row.category == nullptr || !WhyNotHandled(*row.category).empty()) continue;
       // Rows are what homes have; a hyponym follows them.
-      proposals.push_back(
-          {name, "", "WordNet", row.category->name, 0.8 * Relevance(wordnet, synset, anchors)});
+      const Relevance relevance = RelevanceOf(wordnet, synset, anchors);
+      candidates.push_back(
+          {{name, "", "WordNet", row.category->name, 0.8 * relevance.score}, relevance.anchor});
     }
   }
-  return proposals;
+  return candidates;
+}
+
+// Chooses up to `count` candidates, each time the one of the highest score after the penalties for
+// what was chosen before.
+std::vector<CategoryProposal> ChooseDiverse(std::vector<Candidate> candidates, int count) {
+  std::vector<CategoryProposal> chosen;
+  std::set<std::string> names;
+  std::map<std::string, int> per_row, per_word;
+  std::map<std::size_t, int> per_anchor;
+  const auto last_word = [](const std::string& name) { return name.substr(name.rfind(' ') + 1); };
+  while (static_cast<int>(chosen.size()) < count) {
+    const Candidate* best = nullptr;
+    double highest = 0.0;
+    for (const Candidate& candidate : candidates) {
+      const CategoryProposal& proposal = candidate.proposal;
+      if (per_row[proposal.row] >= kMostPerRow || names.contains(proposal.category)) continue;
+      const double score = proposal.score *
+                           std::pow(kSameWord, per_word[last_word(proposal.category)]) *
+                           std::pow(kSameNoun, per_anchor[candidate.anchor]);
+      if (score <= highest) continue;
+      best = &candidate;
+      highest = score;
+    }
+    if (best == nullptr) break;
+    ++per_row[best->proposal.row];
+    ++per_word[last_word(best->proposal.category)];
+    ++per_anchor[best->anchor];
+    names.insert(best->proposal.category);
+    chosen.push_back(best->proposal);
+    chosen.back().prompt = PromptFor(best->proposal.category);
+  }
+  return chosen;
 }
 
 // Returns one line of text without control characters, at most kLongestPrompt bytes; "" if nothing
@@ -274,21 +336,10 @@ std::vector<CategoryProposal> OfflineCategories(const std::string& theme, int co
   }
   const std::vector<Anchor> anchors =
       AnchorsOf(physics_params::NormaliseName(theme), *wordnet, findings);
-  std::vector<CategoryProposal> all = RowProposals(*wordnet, anchors);
-  const std::vector<CategoryProposal> hyponyms = HyponymProposals(*wordnet, anchors);
-  all.insert(all.end(), hyponyms.begin(), hyponyms.end());
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.score > b.score; });
-  std::vector<CategoryProposal> chosen;
-  std::set<std::string> names;
-  std::map<std::string, int> per_row;
-  for (CategoryProposal& proposal : all) {
-    if (static_cast<int>(chosen.size()) >= count) break;
-    if (per_row[proposal.row] >= kMostPerRow || !names.insert(proposal.category).second) continue;
-    ++per_row[proposal.row];
-    proposal.prompt = PromptFor(proposal.category);
-    chosen.push_back(std::move(proposal));
-  }
+  std::vector<Candidate> candidates = RowCandidates(*wordnet, anchors);
+  const std::vector<Candidate> hyponyms = HyponymCandidates(*wordnet, anchors);
+  candidates.insert(candidates.end(), hyponyms.begin(), hyponyms.end());
+  std::vector<CategoryProposal> chosen = ChooseDiverse(std::move(candidates), count);
   ReportFewer(theme, chosen.size(), count, findings);
   return chosen;
 }

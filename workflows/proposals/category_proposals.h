@@ -25,10 +25,11 @@ std::vector<std::string> KnownThemes();
 
 // Returns up to `count` categories for a theme without a language model: rows of the knowledge
 // base, and WordNet's hyponyms of the theme's nouns that such a row covers. All can be handled by a
-// robot's gripper: at most 5 kg, 1 cm to 60 cm long. A row and its hyponyms give at most three.
-// Ordered by relevance; the same theme gives the same list. `findings` gets "theme-unknown" for a
-// theme without a list, and "proposals-fewer" if there are fewer than `count`.
-// Throws core::Error for a theme that is no noun that WordNet knows.
+// robot's gripper: at most 5 kg, 1 cm to 60 cm long. Rows that are variants of others are left out;
+// a row and its hyponyms give at most three. Ordered by relevance, less for each chosen one of the
+// same last word or noun of the theme; the same theme gives the same list. `findings` gets
+// "theme-unknown" for a theme without a list, and "proposals-fewer" if there are fewer than
+// `count`. Throws core::Error for a theme that is no noun that WordNet knows.
 std::vector<CategoryProposal> OfflineCategories(const std::string& theme, int count,
                                                 core::Findings* findings);
 
