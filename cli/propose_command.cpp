@@ -5,19 +5,19 @@
 #include "cli/findings_output.h"
 #include "cli/image_generator_options.h"
 #include "cli/language_model_options.h"
-#include "workflows/proposals/proposals.h"
+#include "proposals/proposals.h"
 
 namespace simwright::cli {
 namespace {
 
 struct ProposeFlags {
-  workflows::ProposalRequest request;
+  proposals::ProposalRequest request;
   LanguageModelOptions language;
   ImageGeneratorFlags generator;
 };
 
 int ProposeCategories(const ProposeFlags& flags, const CommonOptions& common) {
-  workflows::ProposalRequest request = flags.request;
+  proposals::ProposalRequest request = flags.request;
   request.seed = common.seed;
   request.force = common.force;
   std::unique_ptr<llm::ChatModel> model;
@@ -27,13 +27,13 @@ int ProposeCategories(const ProposeFlags& flags, const CommonOptions& common) {
   if (flags.generator.given()) generator = MakeFlaggedGenerator(flags.generator, common);
   request.generator = generator.get();
   core::Progress progress(common.ProgressStyle());
-  const workflows::ProposalReport report = workflows::Propose(request, &progress);
+  const proposals::ProposalReport report = proposals::Propose(request, &progress);
   progress.Finish();
   if (common.json) {
-    PrintJson(workflows::ProposalJson(request, report), report.findings);
+    PrintJson(proposals::ProposalJson(request, report), report.findings);
     return 0;
   }
-  if (!common.quiet) std::fputs(workflows::ProposalTable(report).c_str(), stdout);
+  if (!common.quiet) std::fputs(proposals::ProposalTable(report).c_str(), stdout);
   PrintFindings(report.findings, common);
   if (model != nullptr && !common.quiet) std::printf("%s\n", UsageLine(model->usage()).c_str());
   std::printf("%zu categories, %d pictures kept, %d refused: %s\n", report.proposals.size(),
@@ -53,7 +53,7 @@ void AddPropose(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright propose --theme kitchen --images photos -o kitchen\n"
       "Pictures are kept if they show one whole object before an even background. See\n"
       "docs/propose.md.");
-  workflows::ProposalRequest& request = flags->request;
+  proposals::ProposalRequest& request = flags->request;
   command
       ->add_option("--theme", request.theme,
                    "kitchen, dining, office, bathroom, workshop, toys, living room, grocery, "

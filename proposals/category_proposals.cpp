@@ -1,4 +1,4 @@
-#include "workflows/proposals/category_proposals.h"
+#include "proposals/category_proposals.h"
 
 #include <algorithm>
 #include <cctype>
@@ -12,9 +12,9 @@
 #include "llm/json_text.h"
 #include "llm/redaction.h"
 #include "physics_params/category_resolution.h"
-#include "workflows/proposals/themes.h"
+#include "proposals/themes.h"
 
-namespace simwright::workflows {
+namespace simwright::proposals {
 namespace {
 
 using physics_params::Category;
@@ -117,14 +117,13 @@ Relevance RelevanceOf(const WordNet& wordnet, WordNet::Synset synset,
   return best;
 }
 
-// Returns the first senses of a row's name or, for "plastic mug", of its last word.
+// Returns the senses of a row's name or, for "plastic mug", of its last word.
 std::vector<WordNet::Synset> SensesOfName(const WordNet& wordnet, const std::string& name) {
   std::vector<WordNet::Synset> senses = wordnet.PhysicalSenses(name);
   const std::size_t blank = name.rfind(' ');
   if (senses.empty() && blank != std::string::npos) {
     senses = wordnet.PhysicalSenses(name.substr(blank + 1));
   }
-  if (senses.size() > 4) senses.resize(4);
   return senses;
 }
 
@@ -149,7 +148,7 @@ std::vector<Candidate> RowCandidates(const WordNet& wordnet, const std::vector<A
       Relevance relevance = RelevanceOf(wordnet, sense, anchors);
       relevance.score *= factor;
       if (IsHandledKind(wordnet, sense) && relevance.score > best.score) best = relevance;
-      factor -= 0.05;
+      factor = std::max(0.75, factor - 0.05);
     }
     if (best.score <= 0.0) continue;
     candidates.push_back({{row.name, "", "knowledge base", row.name, best.score}, best.anchor});
@@ -374,4 +373,4 @@ std::vector<CategoryProposal> LanguageModelCategories(const std::string& theme, 
   return proposals;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::proposals

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace simwright::workflows {
+namespace simwright::proposals {
 
 // A noun whose hyponyms belong to a theme, and how typical they are of it, in (0, 1].
 struct ThemeNoun {
@@ -19,4 +19,4 @@ struct Theme {
 // Returns the themes that ship with the program. Nouns and weights are estimates of ours.
 const std::vector<Theme>& ShippedThemes();
 
-}  // namespace simwright::workflows
+}  // namespace simwright::proposals

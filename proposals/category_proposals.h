@@ -8,7 +8,7 @@
 #include "core/progress.h"
 #include "llm/chat_model.h"
 
-namespace simwright::workflows {
+namespace simwright::proposals {
 
 // A category that is worth an asset, and the words that ask for its picture.
 struct CategoryProposal {
@@ -53,4 +53,4 @@ std::string PromptFor(const std::string& category);
 inline constexpr const char* kProposalNegativePrompt =
     "several objects, hands, people, text, watermark, cropped, cluttered background, strong shadow";
 
-}  // namespace simwright::workflows
+}  // namespace simwright::proposals

@@ -5,7 +5,7 @@
 
 #include "core/image.h"
 
-namespace simwright::workflows {
+namespace simwright::proposals {
 
 // The limits of the test that keeps pictures of one whole object before an even background.
 struct UnclutteredLimits {
@@ -30,4 +30,4 @@ struct UnclutteredResult {
 UnclutteredResult TestUncluttered(const core::Image& picture, std::uint64_t seed = 1,
                                   const UnclutteredLimits& limits = {});
 
-}  // namespace simwright::workflows
+}  // namespace simwright::proposals

@@ -1,4 +1,4 @@
-#include "workflows/proposals/proposals.h"
+#include "proposals/proposals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include "core/finding_json.h"
 #include "core/json.h"
 #include "core/random.h"
-#include "workflows/proposals/picture_folder.h"
+#include "proposals/picture_folder.h"
 
-namespace simwright::workflows {
+namespace simwright::proposals {
 namespace {
 namespace fs = std::filesystem;
 
@@ -283,4 +283,4 @@ std::string ProposalJson(const ProposalRequest& request, const ProposalReport& r
   return core::JsonText(json, core::InvalidUtf8::kReplace);
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::proposals

@@ -1,4 +1,4 @@
-#include "workflows/proposals/uncluttered_test.h"
+#include "proposals/uncluttered_test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "asset_lift/segmentation/segmentation.h"
 #include "core/error.h"
 
-namespace simwright::workflows {
+namespace simwright::proposals {
 namespace {
 
 constexpr std::uint8_t kInObject = 128;
@@ -148,4 +148,4 @@ UnclutteredResult TestUncluttered(const core::Image& original, std::uint64_t see
   return result;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::proposals

@@ -1,6 +1,6 @@
-#include "workflows/proposals/themes.h"
+#include "proposals/themes.h"
 
-namespace simwright::workflows {
+namespace simwright::proposals {
 
 const std::vector<Theme>& ShippedThemes() {
   static const std::vector<Theme> themes = {{"kitchen",
@@ -11,6 +11,7 @@ const std::vector<Theme>& ShippedThemes() {
                                               {"cutlery", 1.0},
                                               {"glass", 0.95},
                                               {"cup", 1.0},
+                                              {"drinking vessel", 1.0},
                                               {"bowl", 0.95},
                                               {"bottle", 0.9},
                                               {"jar", 0.9},
@@ -105,4 +106,4 @@ const std::vector<Theme>& ShippedThemes() {
   return themes;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::proposals

@@ -8,11 +8,11 @@
 #include "core/finding.h"
 #include "core/progress.h"
 #include "llm/chat_model.h"
+#include "proposals/category_proposals.h"
+#include "proposals/uncluttered_test.h"
 #include "texture/image_generator.h"
-#include "workflows/proposals/category_proposals.h"
-#include "workflows/proposals/uncluttered_test.h"
 
-namespace simwright::workflows {
+namespace simwright::proposals {
 
 struct ProposalRequest {
   std::string theme;                             // "kitchen"
@@ -66,4 +66,4 @@ ProposalReport Propose(const ProposalRequest& request, core::Progress* progress)
 std::string ProposalTable(const ProposalReport& report);
 std::string ProposalJson(const ProposalRequest& request, const ProposalReport& report);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::proposals

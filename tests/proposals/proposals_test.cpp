@@ -1,5 +1,5 @@
 // Proposals of categories, with pictures from a folder or a generator, and the test of pictures.
-#include "workflows/proposals/proposals.h"
+#include "proposals/proposals.h"
 
 #include <gtest/gtest.h>
 
@@ -12,10 +12,10 @@
 #include "core/json.h"
 #include "library/rigid/rigid_kinds.h"
 #include "physics_params/category_resolution.h"
+#include "proposals/picture_folder.h"
 #include "render/forward.h"
-#include "workflows/proposals/picture_folder.h"
 
-namespace simwright::workflows {
+namespace simwright::proposals {
 namespace {
 namespace fs = std::filesystem;
 
@@ -267,4 +267,4 @@ TEST(Proposals, PicturesAreTakenFromAFolderByCategory) {
 }
 
 }  // namespace
-}  // namespace simwright::workflows
+}  // namespace simwright::proposals

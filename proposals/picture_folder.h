@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace simwright::workflows {
+namespace simwright::proposals {
 
 // The pictures of a folder by category (normalised name), each list in order of its paths:
 // DIR/mug/*.jpg, DIR/mug.png, DIR/mug_1.jpg. PNG, JPEG, WebP, BMP and TIFF; links and hidden files
@@ -18,4 +18,4 @@ struct PictureFolder {
 // Throws core::Error unless `folder` is a folder with at most 100,000 entries.
 PictureFolder ReadPictureFolder(const std::filesystem::path& folder);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::proposals

@@ -1,12 +1,12 @@
-#include "workflows/proposals/picture_folder.h"
+#include "proposals/picture_folder.h"
 
 #include <algorithm>
 #include <cctype>
 
 #include "core/error.h"
-#include "workflows/proposals/category_proposals.h"
+#include "proposals/category_proposals.h"
 
-namespace simwright::workflows {
+namespace simwright::proposals {
 namespace {
 namespace fs = std::filesystem;
 
@@ -69,4 +69,4 @@ PictureFolder ReadPictureFolder(const fs::path& folder) {
   return pictures;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::proposals
