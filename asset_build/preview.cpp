@@ -37,12 +37,14 @@ core::Image RigidView(const assets::Asset& asset, int size) {
   return render::Turntable(asset.visual, options).front();
 }
 
-core::Image AssetPreview(const assets::Asset& asset) {
+core::Image AssetPreview(const assets::Asset& asset, const core::PbrLook* look) {
   render::TurntableOptions options;
+  options.look = look;
   std::vector<core::Image> pictures = render::Turntable(asset.visual, options);
   if (!asset.parts.empty()) {
     const core::TexturedMesh parts = ColoredParts(asset.parts);
     options.samples_per_side = 2;
+    options.look = nullptr;
     const std::vector<core::Image> below = render::Turntable(parts, options);
     pictures.insert(pictures.end(), below.begin(), below.end());
   }

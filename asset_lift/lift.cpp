@@ -11,6 +11,7 @@
 #include "asset_lift/priors/view_prior.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "texture/delighting.h"
 #include "texture/photo_projection.h"
 
 namespace simwright::asset_lift {
@@ -91,13 +92,31 @@ double PadWhereCutOff(core::Image* photo, Matte* matte) {
   return touched / (2.0 * (w + h));
 }
 
+// Returns the photo that becomes the texture: as it is, or without its shading.
+core::Image TexturePhoto(const core::TriangleMesh& mesh, const LiftOptions& options,
+                         LiftedMesh* lifted) {
+  if (!options.delight) return lifted->photo;
+  texture::DelightingOptions delighting;
+  delighting.seed = options.seed;
+  texture::DelitPhoto delit =
+      texture::DelightPhoto(mesh, {lifted->camera, lifted->photo, lifted->matte.alpha}, delighting);
+  char text[160];
+  std::snprintf(text, sizeof(text),
+                "the photo's shading, of a contrast of %.2g, was divided out, and highlights on "
+                "%.1f %% of the object were replaced",
+                delit.contrast, 100.0 * delit.highlights);
+  lifted->findings.push_back({"delighting", core::Severity::kInfo, "", text, delit.contrast});
+  return std::move(delit.albedo);
+}
+
 // Textures the inflated silhouette from the photo and its mirror image.
-void FinishOutline(const InflatedShape& shape, const texture::PhotoProjectionOptions& projection,
-                   LiftedMesh* lifted) {
+void FinishOutline(const InflatedShape& shape, const LiftOptions& options,
+                   const texture::PhotoProjectionOptions& projection, LiftedMesh* lifted) {
   lifted->start = std::string("the silhouette, ") + Name(shape.form);
   lifted->silhouette_iou = shape.silhouette_iou;
-  lifted->mesh = texture::ProjectPhoto(shape.mesh, lifted->camera, lifted->photo,
-                                       lifted->matte.alpha, shape.mirror, projection);
+  const core::Image photo = TexturePhoto(shape.mesh, options, lifted);
+  lifted->mesh = texture::ProjectPhoto(shape.mesh, lifted->camera, photo, lifted->matte.alpha,
+                                       shape.mirror, projection);
 }
 
 // Returns true if the silhouette determines the whole surface, as for a solid of revolution. The
@@ -151,12 +170,13 @@ void FitAndPaint(const InflatedShape& outline, const LiftPriors& priors, const L
   lifted->silhouette_iou = SilhouetteIou(fit.mesh, lifted->camera, lifted->matte);
   progress->Stage("texture");
   const std::vector<Eigen::Vector3f> hidden = HiddenColors(fit, prediction);
+  const core::Image photo = TexturePhoto(fit.mesh, options, lifted);
   lifted->mesh =
       hidden.empty()
-          ? texture::ProjectPhoto(fit.mesh, lifted->camera, lifted->photo, lifted->matte.alpha,
+          ? texture::ProjectPhoto(fit.mesh, lifted->camera, photo, lifted->matte.alpha,
                                   outline.mirror, projection)
-          : texture::ProjectPhotos(fit.mesh, {{lifted->camera, lifted->photo, lifted->matte.alpha}},
-                                   hidden, projection);
+          : texture::ProjectPhotos(fit.mesh, {{lifted->camera, photo, lifted->matte.alpha}}, hidden,
+                                   projection);
 }
 
 void AddFinding(const std::string& code, const std::string& sentence, double figure,
@@ -285,7 +305,7 @@ LiftedMesh LiftPhoto(const core::Image& photo, const CategoryPrior& prior, const
   const bool nothing_learned = priors.shape == nullptr && priors.view == nullptr;
   if (options.effort == LiftEffort::kOutline || revolved || nothing_learned) {
     progress->Stage("texture");
-    FinishOutline(outline, projection, &lifted);
+    FinishOutline(outline, options, projection, &lifted);
   } else {
     FitAndPaint(outline, priors, options, projection, progress, &lifted);
   }

@@ -52,6 +52,8 @@ struct LiftOptions {
   // than a lens's.
   double default_field_of_view = 0.61;  // rad, 35 degrees
   int texture_size = 1024;              // pixels per side
+  // Divides the photo's shading out before it becomes the texture (texture/delighting.h).
+  bool delight = false;
   int max_side = 1024;                  // a larger photo is scaled down first
   std::uint64_t seed = 1;
   SegmentationOptions segmentation;

@@ -24,7 +24,10 @@ void SdfLink(Printer* printer, const ArticulatedAsset& asset, const ArticulatedL
   }
   SdfInertial(printer, link.inertial);
   for (const ColoredPiece& piece : ColoredPieces(link)) {
-    SdfVisual(printer, piece.stem, piece.stem + ".obj");
+    // A colour would replace the texture that the mesh file names.
+    const Eigen::Vector4f* color =
+        piece.texture.empty() ? &piece.mesh.materials.front().base_color : nullptr;
+    SdfVisual(printer, piece.stem, piece.stem + ".obj", color);
   }
   const HydroelasticContact contact = ContactOf(asset, link);
   for (size_t i = 0; i < link.parts.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "assets/asset.h"
+#include "core/error.h"
 #include "core/json.h"
 #include "physics_params/physical_parameters.h"
 

@@ -8,6 +8,7 @@
 
 #include "assets/asset_json.h"
 #include "assets/obj_file.h"
+#include "assets/sdf_material.h"
 #include "assets/xml_element.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -81,13 +82,18 @@ void AddToMtl(const PbrLook& look, const fs::path& mtl) {
   core::WriteFile(mtl, text);
 }
 
+// Opens the XML `file`. Throws core::Error if it is damaged.
+void LoadXml(const fs::path& file, tinyxml2::XMLDocument* document) {
+  if (document->LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
+    throw core::Error("is not well-formed XML", file.string(), kAssetRemedy);
+  }
+}
+
 // Gives the visual geom's material the highlights of the main material.
 void AddToMjcf(const core::TexturedMesh& visual, const PbrLook& look, const std::string& name,
                const fs::path& mjcf) {
   tinyxml2::XMLDocument document;
-  if (document.LoadFile(mjcf.c_str()) != tinyxml2::XML_SUCCESS) {
-    throw core::Error("is not well-formed XML", mjcf.string(), kAssetRemedy);
-  }
+  LoadXml(mjcf, &document);
   tinyxml2::XMLElement* const root = document.FirstChildElement("mujoco");
   tinyxml2::XMLElement* const meshes = root ? root->FirstChildElement("asset") : nullptr;
   tinyxml2::XMLElement* const world = root ? root->FirstChildElement("worldbody") : nullptr;
@@ -116,6 +122,36 @@ void AddToMjcf(const core::TexturedMesh& visual, const PbrLook& look, const std:
   tinyxml2::XMLPrinter printer;
   document.Print(&printer);
   core::WriteFile(mjcf, printer.CStr());
+}
+
+// Gives the SDF's visual the material as <pbr><metal> (SDFormat 1.9). The text is written by a
+// printer, because the elements' order is theirs.
+void AddToSdf(const core::TexturedMesh& visual, const PbrLook& look, const fs::path& sdf) {
+  tinyxml2::XMLDocument document;
+  LoadXml(sdf, &document);
+  tinyxml2::XMLElement* element = document.FirstChildElement("sdf");
+  for (const char* name : {"model", "link", "visual"}) {
+    if (element != nullptr) element = element->FirstChildElement(name);
+  }
+  if (element == nullptr)
+    throw core::Error("is not the SDF of an asset", sdf.string(), kAssetRemedy);
+  const core::Material& base = visual.materials.front();
+  const PbrMaterial& pbr = look.materials.front();
+  SdfMaterialFiles files;
+  if (base.texture >= 0) {
+    files.albedo = TextureFileName(base.texture, static_cast<int>(visual.textures.size()));
+  }
+  if (pbr.metallic_map >= 0) files.metalness = MapFileName("metallic", 0);
+  if (pbr.roughness_map >= 0) files.roughness = MapFileName("roughness", 0);
+  if (pbr.normal_map >= 0) files.normal = MapFileName("normal", 0);
+  tinyxml2::XMLPrinter material;
+  SdfMaterial(&material, base.base_color, &pbr, files);
+  tinyxml2::XMLDocument parsed;
+  parsed.Parse(material.CStr());
+  element->InsertEndChild(parsed.RootElement()->DeepClone(&document));
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  core::WriteFile(sdf, printer.CStr());
 }
 
 float Share(const core::JsonField& field) {
@@ -160,6 +196,7 @@ void AddPbrLook(const core::TexturedMesh& visual, const PbrLook& look, const std
   core::WriteFile(file, core::JsonText(json));
   AddToMtl(stated, folder / "visual.mtl");
   AddToMjcf(visual, stated, name, folder / (name + ".xml"));
+  if (stated.materials.size() == 1) AddToSdf(visual, stated, folder / (name + ".sdf"));
 }
 
 PbrLook ReadPbrLook(const fs::path& folder) {

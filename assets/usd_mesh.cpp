@@ -5,6 +5,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "assets/corner_normals.h"
+
 namespace simwright::assets {
 namespace {
 
@@ -87,41 +89,6 @@ void SetFlatNormals(const core::TriangleMesh& mesh, UsdPrim* prim) {
   SetNormals(normals, "uniform", prim);
 }
 
-// Sets a normal per corner: the mean of the faces about the vertex that are turned by less than 40
-// degrees, so that round surfaces look round and edges sharp. Vertices of very many faces, the
-// middles of large fans, keep the faces' own normals: every pair of their faces would be compared.
-void SetSmoothNormals(const core::TriangleMesh& mesh, UsdPrim* prim) {
-  constexpr double kCosine = 0.766;
-  constexpr size_t kMostFaces = 2048;
-  const std::vector<Eigen::Vector3d> areas = AreaVectors(mesh);
-  std::vector<Eigen::Vector3d> units = areas;
-  for (Eigen::Vector3d& unit : units) unit = Unit(unit);
-  std::vector<std::vector<int>> faces(mesh.vertices.size());
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const int vertex : mesh.triangles[t]) {
-      faces[static_cast<size_t>(vertex)].push_back(static_cast<int>(t));
-    }
-  }
-  std::vector<Eigen::Vector3d> normals;
-  normals.reserve(3 * mesh.triangles.size());
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const int vertex : mesh.triangles[t]) {
-      const std::vector<int>& about = faces[static_cast<size_t>(vertex)];
-      if (about.size() > kMostFaces) {
-        normals.push_back(units[t]);
-        continue;
-      }
-      Eigen::Vector3d sum = areas[t];
-      for (const int other : about) {
-        const auto o = static_cast<size_t>(other);
-        if (o != t && units[o].dot(units[t]) > kCosine) sum += areas[o];
-      }
-      normals.push_back(sum.norm() > 0.0 ? Unit(sum) : units[t]);
-    }
-  }
-  SetNormals(normals, "faceVarying", prim);
-}
-
 std::vector<std::vector<int>> FacesByMaterial(const core::TexturedMesh& visual) {
   std::vector<std::vector<int>> faces(visual.materials.size());
   for (size_t i = 0; i < visual.triangle_material.size(); ++i) {
@@ -141,7 +108,7 @@ UsdPrim UsdVisualMesh(const std::string& name, const core::TexturedMesh& visual,
                       const std::vector<std::string>& materials) {
   UsdPrim prim = Mesh(name, visual.mesh);
   prim.Set("uniform bool doubleSided", "1");
-  SetSmoothNormals(visual.mesh, &prim);
+  SetNormals(CornerNormals(visual.mesh), "faceVarying", &prim);
   if (!visual.corner_uvs.empty()) SetTextureCoordinates(visual.corner_uvs, &prim);
   if (materials.empty()) return prim;
   if (materials.size() == 1 || visual.triangle_material.empty()) {

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "assets/principal_inertia.h"
+#include "assets/sdf_material.h"
 
 namespace simwright::assets {
 
@@ -125,10 +126,12 @@ void SdfGeometry(tinyxml2::XMLPrinter* printer, const std::string& file, bool co
 
 }  // namespace
 
-void SdfVisual(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file) {
+void SdfVisual(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file,
+               const Eigen::Vector4f* color) {
   Element visual(printer, "visual");
   visual.Set("name", name);
   SdfGeometry(printer, file, false);
+  if (color != nullptr) SdfMaterial(printer, *color, nullptr, {});
 }
 
 void SdfCollision(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file,

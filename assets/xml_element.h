@@ -50,7 +50,9 @@ void UrdfContact(tinyxml2::XMLPrinter* printer, double friction, double rolling_
                  double restitution);
 
 void SdfInertial(tinyxml2::XMLPrinter* printer, const Inertial& inertial);
-void SdfVisual(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file);
+// `color` (RGBA, sRGB; may be null) becomes the material of a visual of one plain colour.
+void SdfVisual(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file,
+               const Eigen::Vector4f* color = nullptr);
 // Writes a convex collision part. Restitution is omitted: Drake, which has none, warns about it,
 // and ODE uses it only above a threshold.
 void SdfCollision(tinyxml2::XMLPrinter* printer, const std::string& name, const std::string& file,

@@ -45,6 +45,7 @@ void AddPhysics(CLI::App* app, CommonOptions* common, Run* run);
 void AddGrasps(CLI::App* app, CommonOptions* common, Run* run);
 void AddCheck(CLI::App* app, CommonOptions* common, Run* run);
 void AddLibrary(CLI::App* app, CommonOptions* common, Run* run);
+void AddPropose(CLI::App* app, CommonOptions* common, Run* run);
 void AddPrior(CLI::App* app, CommonOptions* common, Run* run);
 void AddTwin(CLI::App* app, CommonOptions* common, Run* run);
 void AddTasks(CLI::App* app, CommonOptions* common, Run* run);

@@ -28,6 +28,7 @@ const std::map<std::string, PolicyFormat> kPolicyFormats = {
     {"onnx", PolicyFormat::kOnnx}, {"torchscript", PolicyFormat::kTorchScript}};
 
 constexpr char kUsd[] = "usd";
+constexpr char kGlb[] = "glb";
 const std::vector<std::string> kWorldFormats = {"mjcf", "sdf", "drake"};
 // Formats of demonstrations with images; robomimic is one only with --cameras.
 const std::vector<std::string> kImageFormats = {"lerobot", "mcap"};
@@ -43,6 +44,10 @@ struct ExportFlags {
 
 bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool IsModel(const ExportFlags& flags) {
+  return !flags.world && (flags.format == kUsd || flags.format == kGlb);
 }
 
 bool HasImages(const ExportFlags& flags) {
@@ -110,8 +115,9 @@ int ExportWorld(const ExportFlags& flags, const CommonOptions& common) {
 }
 
 int ExportModel(const ExportFlags& flags, const CommonOptions& common) {
-  const workflows::AssetExportReport report =
-      workflows::ExportAsset({flags.run, flags.output, common.force});
+  const workflows::AssetExportReport report = workflows::ExportAsset(
+      {flags.run, flags.output, common.force,
+       flags.format == kGlb ? workflows::AssetFormat::kGlb : workflows::AssetFormat::kUsd});
   if (common.json) {
     PrintJson(workflows::AssetExportJson(report), report.findings);
     return 0;
@@ -141,7 +147,7 @@ int ExportImages(const ExportFlags& flags, const CommonOptions& common) {
 
 int ExportAs(const ExportFlags& flags, const CommonOptions& common) {
   if (flags.world) return ExportWorld(flags, common);
-  if (flags.format == kUsd) return ExportModel(flags, common);
+  if (IsModel(flags)) return ExportModel(flags, common);
   if (HasImages(flags)) return ExportImages(flags, common);
   return kPolicyFormats.contains(flags.format) ? ExportModels(flags, common)
                                                : ExportMotions(flags, common);
@@ -150,7 +156,6 @@ int ExportAs(const ExportFlags& flags, const CommonOptions& common) {
 // Throws CLI::ParseError for an option that the chosen kind of export does not use.
 void RequireUsedOptions(const CLI::App& command, const ExportFlags& flags) {
   const bool images = HasImages(flags);
-  const bool model = flags.format == kUsd && !flags.world;
   const auto refuse = [&command](std::initializer_list<const char*> options, const char* what) {
     for (const char* option : options) {
       if (command.count(option) > 0) throw CLI::ValidationError(option, what);
@@ -162,8 +167,9 @@ void RequireUsedOptions(const CLI::App& command, const ExportFlags& flags) {
   } else {
     refuse({"--joint-names", "--pace"}, "is not for demonstrations with images");
   }
-  if (model) {
-    refuse({"--joint-names", "--pace", "--episodes", "--sampled-start"}, "is not for --format usd");
+  if (IsModel(flags)) {
+    refuse({"--joint-names", "--pace", "--episodes", "--sampled-start"},
+           "is not for --format usd and glb");
   }
 }
 
@@ -186,10 +192,10 @@ void RequireExportSource(const ExportFlags& flags) {
   need(policy || world || flags.subtask.empty(), "--subtask", "a policy or --world");
   if (flags.run.empty() && flags.skill.empty()) {
     throw CLI::RequiredError(
-        world ? "a folder written by `simwright train`, or a tasks.json with --task NAME"
-        : flags.format == kUsd ? "the folder of an asset"
-        : policy || images     ? "a folder written by `simwright train`, or --skill NAME"
-                               : "a folder written by `simwright train`");
+        world            ? "a folder written by `simwright train`, or a tasks.json with --task NAME"
+        : IsModel(flags) ? "the folder of an asset"
+        : policy || images ? "a folder written by `simwright train`, or --skill NAME"
+                           : "a folder written by `simwright train`");
   }
 }
 
@@ -236,7 +242,7 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
   auto flags = std::make_shared<ExportFlags>();
   CLI::App* command = app->add_subcommand("export",
                                           "Export skills as trajectories, demonstrations or "
-                                          "networks, tasks as worlds, and assets as USD");
+                                          "networks, tasks as worlds, and assets as USD or GLB");
   command->footer(
       "Examples:\n  simwright export open --format ros2 --joint-names fr3 -o open.yaml\n"
       "  simwright export open --format robomimic --episodes 50 -o open.hdf5\n"
@@ -245,17 +251,17 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright export tasks.json --task open_drawer_unit_1_drawer_1 --world --format mjcf -o "
       "w\n"
       "  simwright export lib/mug_1 --format usd -o mug_usd\n"
+      "  simwright export lib/mug_1 --format glb -o mug.glb\n"
       "Trajectories respect the robot's limits, at 1 kHz from rest to rest. `simwright replay`\n"
       "verifies them. Networks map an observation to an action (docs/export.md). Demonstrations\n"
       "with images (lerobot, mcap, robomimic with --cameras) are written by the Python package\n"
       "(docs/demonstrations.md).");
-  CLI::Option* folder =
-      command
-          ->add_option(
-              "run", flags->run,
-              "A folder written by `simwright train`; with --world also a tasks.json; for usd the "
-              "folder of an asset")
-          ->default_str("none");
+  CLI::Option* folder = command
+                            ->add_option("run", flags->run,
+                                         "A folder written by `simwright train`; with --world also "
+                                         "a tasks.json; for usd and glb "
+                                         "the folder of an asset")
+                            ->default_str("none");
   command
       ->add_option("--skill", flags->skill,
                    "A shipped policy instead of a folder (onnx, torchscript, or images)")
@@ -272,11 +278,11 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
                     "With --world: a start sampled with --seed as in an evaluation, not the start "
                     "that the task describes");
   AddChoice(command, "--format",
-            {"ros2", "csv", "robomimic", "lerobot", "mcap", "onnx", "torchscript", "usd", "mjcf",
-             "sdf", "drake"},
+            {"ros2", "csv", "robomimic", "lerobot", "mcap", "onnx", "torchscript", "usd", "glb",
+             "mjcf", "sdf", "drake"},
             "",
             "ros2 (YAML, or JSON by the extension), csv, robomimic, onnx, torchscript; with images "
-            "lerobot, mcap; of an asset usd; with --world mjcf, sdf, drake, usd",
+            "lerobot, mcap; of an asset usd, glb; with --world mjcf, sdf, drake, usd",
             [flags](const std::string& name) { flags->format = name; })
       ->required();
   command

@@ -95,7 +95,7 @@ void AddGenerator(CLI::App* command, GeneratorFlags* flags, workflows::LiftReque
                    "Also write the generator's mesh to this file")
       ->default_str("not kept");
   for (const char* unused :
-       {"--cameras", "--prior", "--fast", "--outline", "--elevation", "--fov"}) {
+       {"--cameras", "--prior", "--fast", "--outline", "--delight", "--elevation", "--fov"}) {
     command->get_option(unused)->excludes(url)->excludes(program);
   }
   AddSegmenter(command, flags);

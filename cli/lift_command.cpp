@@ -74,6 +74,7 @@ void RequireNoneUnused(const LiftFlags& flags, const std::string& photos, bool h
                                                  {flags.ruler > 0.0 && !ruler_is_used, "--ruler"},
                                                  {flags.fast, "--fast"},
                                                  {flags.outline, "--outline"},
+                                                 {one.delight, "--delight"},
                                                  {flags.shape != "auto", "--shape"},
                                                  {!one.prior.empty(), "--prior"},
                                                  {one.elevation_degrees >= 0.0, "--elevation"},
@@ -309,6 +310,9 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       ->excludes("--cameras");
   command->add_flag("--fast", flags->fast, "Without radiance field: under a minute");
   command->add_flag("--outline", flags->outline, "Only inflate the silhouette: a few seconds");
+  command->add_flag("--delight", flags->request.delight,
+                    "Divide the photo's shading out of the texture and replace highlights "
+                    "(docs/materials.md)");
   command
       ->add_option("--elevation", flags->request.elevation_degrees,
                    "The angle by which the camera looked down, degrees")

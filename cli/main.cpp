@@ -50,6 +50,7 @@ int Main(int argc, char** argv) {
   cli::AddCheck(&app, &common, &run);
   cli::AddGrasps(&app, &common, &run);
   cli::AddLibrary(&app, &common, &run);
+  cli::AddPropose(&app, &common, &run);
   cli::AddPrior(&app, &common, &run);
   cli::AddTwin(&app, &common, &run);
   cli::AddTasks(&app, &common, &run);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <memory>
 #include <set>
+#include <unordered_set>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -182,6 +183,27 @@ double WordNet::Similarity(Synset a, Synset b) const {
 int WordNet::LexicographerFile(Synset synset) const {
   const auto node = nodes_.find(synset);
   return node == nodes_.end() ? 0 : node->second.lexicographer_file;
+}
+
+std::vector<WordNet::Synset> WordNet::Hyponyms(Synset of, int most_steps) const {
+  std::unordered_map<Synset, std::vector<Synset>> below;
+  for (const auto& [synset, node] : nodes_) {
+    for (const Synset above : node.hypernyms) below[above].push_back(synset);
+  }
+  std::vector<Synset> found, level = {of};
+  std::unordered_set<Synset> known = {of};
+  for (int step = 0; step < most_steps && !level.empty(); ++step) {
+    std::vector<Synset> next;
+    for (const Synset synset : level) {
+      for (const Synset child : below[synset]) {
+        if (known.insert(child).second) next.push_back(child);
+      }
+    }
+    std::sort(next.begin(), next.end());
+    found.insert(found.end(), next.begin(), next.end());
+    level = std::move(next);
+  }
+  return found;
 }
 
 std::vector<WordNet::Synset> WordNet::Hypernyms(Synset synset) const {

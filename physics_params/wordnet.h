@@ -37,6 +37,10 @@ class WordNet {
   // Returns the synsets directly above one; empty for an unknown one.
   std::vector<Synset> Hypernyms(Synset synset) const;
 
+  // Returns the synsets up to `most_steps` below one, itself left out, nearest first and then by
+  // offset.
+  std::vector<Synset> Hyponyms(Synset of, int most_steps) const;
+
   // Returns how many steps `of` lies above `kind`: 0 for the same synset, unset if it is not above.
   std::optional<int> StepsUp(Synset kind, Synset of) const;
 

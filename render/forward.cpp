@@ -1,10 +1,12 @@
 #include "render/forward.h"
 
 #include <cmath>
+#include <optional>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "render/reflection.h"
 
 namespace simwright::render {
 namespace {
@@ -21,6 +23,7 @@ class Shader {
   Shader(const Scene& scene, const ForwardOptions& options) : scene_(scene), options_(options) {
     const Eigen::AlignedBox3f box = scene.bounds();
     reach_ = box.isEmpty() ? 0.0f : options.occlusion_reach * box.diagonal().norm();
+    if (scene.HasLooks()) specular_.emplace(options.light);
   }
 
   // The last albedo that was made linear: neighbouring hits often have the same.
@@ -28,9 +31,15 @@ class Shader {
     Eigen::Vector3f srgb = Eigen::Vector3f::Zero(), linear = Eigen::Vector3f::Zero();
   };
 
-  // Returns the linear RGB of a hit at `point`, whose shading normal faces the camera.
-  Eigen::Vector3f Color(const Hit& hit, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
-                        size_t pixel, int sample, LastAlbedo* last) const {
+  // A hit of a ray (its direction, world), whose shading normal faces the camera.
+  struct Seen {
+    const Hit& hit;
+    const Eigen::Vector3f &ray, &point, &normal;
+  };
+
+  // Returns the linear RGB of a hit.
+  Eigen::Vector3f Color(const Seen& seen, size_t pixel, int sample, LastAlbedo* last) const {
+    const auto& [hit, ray, point, normal] = seen;
     const Eigen::Vector3f albedo = scene_.Albedo(hit).head<3>();
     if (albedo != last->srgb) {
       last->srgb = albedo;
@@ -38,12 +47,34 @@ class Shader {
     }
     Eigen::Vector3f color = last->linear;
     if (!options_.lit) return color;
+    if (specular_ && scene_.look(hit.instance) != nullptr) {
+      return LookColor(seen, color, pixel, sample);
+    }
     color = color.cwiseProduct(options_.light.Shade(normal));
     if (options_.occlusion_rays > 0) color *= Openness(point, normal, pixel, sample);
     return color;
   }
 
  private:
+  // Returns the linear RGB of a surface with a look: its diffuse part and its reflection.
+  Eigen::Vector3f LookColor(const Seen& seen, const Eigen::Vector3f& albedo, size_t pixel,
+                            int sample) const {
+    Eigen::Vector3f normal;
+    const SurfaceReflection surface = scene_.ReflectionAt(seen.hit, seen.normal, &normal);
+    const bool occluded = options_.occlusion_rays > 0;
+    const float openness = occluded ? Openness(seen.point, seen.normal, pixel, sample) : 1.0f;
+    float key_share = 1.0f;
+    if (occluded) {
+      const Eigen::Vector3f start = seen.point + 1e-3f * reach_ * seen.normal;
+      key_share = scene_.Occluded(start, specular_->key_direction(), 0.0f, 1e30f) ? 0.0f : 1.0f;
+    }
+    const Eigen::Vector3f diffuse =
+        (1.0f - surface.metallic) * openness * albedo.cwiseProduct(options_.light.Shade(normal));
+    return diffuse +
+           specular_->Reflect({NormalReflectance(albedo, surface.metallic), surface.roughness},
+                              normal, -seen.ray.normalized(), openness, key_share);
+  }
+
   // Returns the share of cosine-weighted directions that are not occluded within reach.
   float Openness(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, size_t pixel,
                  int sample) const {
@@ -74,6 +105,7 @@ class Shader {
 
   const Scene& scene_;
   const ForwardOptions& options_;
+  std::optional<SpecularLight> specular_;  // if a mesh has a look
   float reach_ = 0.0f;
 };
 
@@ -150,7 +182,7 @@ class RowRenderer {
         buffers_.mask[at] = 1.0f;
         if (!options_.shaded) continue;
         const Eigen::Vector3f point = origin_ + hits[k].depth * rays[k];
-        Store(shader_.Color(hits[k], point, normal, at, 0, &albedo), at, first + k, y);
+        Store(shader_.Color({hits[k], rays[k], point, normal}, at, 0, &albedo), at, first + k, y);
       }
     }
   }
@@ -181,7 +213,7 @@ class RowRenderer {
         if (representative) Keep(hit, normal, at);
         if (!options_.shaded) continue;
         const Eigen::Vector3f point = origin_ + hit.depth * rays[k];
-        sum += shader_.Color(hit, point, normal, at, first + k, albedo);
+        sum += shader_.Color({hit, rays[k], point, normal}, at, first + k, albedo);
       }
     }
     buffers_.mask[at] = static_cast<float>(covered) / static_cast<float>(n * n);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/reflection.h"
+
 namespace simwright::render {
 namespace {
 
@@ -53,6 +55,43 @@ Vector3f PartAlbedo(const RigidScene& scene, const SeenPart& part, int triangle,
   const Vector3f base =
       plain && look.color ? LinearColor(*look.color) : LinearAlbedo(mesh, triangle, u, v);
   return LookAlbedo(look, base, point);
+}
+
+// Writes the reflection of lane `k`, and turns its normal and albedo into those of its look.
+void ApplyLook(const SeenPart& part, const PacketHits& hits, int k, Vector3f* normal,
+               Vector3f* albedo, PacketSurface* surface) {
+  const RigidMesh::Content& mesh = *part.mesh;
+  const auto t = static_cast<std::size_t>(hits.triangle[k]);
+  const float u = hits.u[k], v = hits.v[k];
+  const Eigen::Vector2f* uvs = mesh.corner_uvs.empty() ? nullptr : &mesh.corner_uvs[3 * t];
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();
+  if (uvs != nullptr) uv = (1.0f - u - v) * uvs[0] + u * uvs[1] + v * uvs[2];
+  const SurfaceReflection look =
+      SampleReflection(mesh.look, mesh.triangles[t].material, uvs == nullptr ? nullptr : &uv);
+  if (look.has_normal && !mesh.corners.empty()) {
+    *normal =
+        PerturbedNormal(look.tangent_normal, *normal, part.world_from_part * mesh.corners[t], uvs);
+  }
+  const Vector3f f0 = NormalReflectance(*albedo, look.metallic);
+  for (int c = 0; c < 3; ++c) surface->f0[c][k] = f0[c];
+  *albedo *= 1.0f - look.metallic;
+  surface->roughness[k] = look.roughness;
+  surface->reflects = true;
+}
+
+// Adds the reflected light of hits whose mesh has a look.
+void AddReflections(const SeenScene& seen, const PacketPixels& pixels, PacketSurface* surface) {
+  const SpecularLight light(seen.scene->light.ambient);
+  for (int k = 0; k < kPacket; ++k) {
+    if (surface->roughness[k] < 0.0f) continue;
+    const auto vector = [k](const float(&lanes)[3][kPacket]) {
+      return Vector3f(lanes[0][k], lanes[1][k], lanes[2][k]);
+    };
+    const Vector3f reflected =
+        light.Reflect({vector(surface->f0), surface->roughness[k]}, vector(surface->normal),
+                      -RayAt(seen.rays, pixels.x[k], pixels.y[k]).normalized());
+    for (int c = 0; c < 3; ++c) surface->albedo[c][k] += reflected[c];
+  }
 }
 
 // Returns the normal of floor or wall `code`, facing a camera inside.
@@ -250,7 +289,9 @@ void EvaluateSurface(const SeenScene& seen, const PacketPixels& pixels, const Pa
   const RigidScene& scene = *seen.scene;
   const Vector3f background =
       LinearColor(scene.backdrop ? scene.backdrop->background : Vector3f::Ones());
+  surface->reflects = false;
   for (int k = 0; k < kPacket; ++k) {
+    surface->roughness[k] = -1.0f;
     const int code = hits.part[k];
     Vector3f normal = Vector3f::Zero(), albedo = background;
     const float x = pixels.x[k], y = pixels.y[k], depth = hits.depth[k];
@@ -262,6 +303,7 @@ void EvaluateSurface(const SeenScene& seen, const PacketPixels& pixels, const Pa
       if (colored) {
         const Vector3f point = part.rays.origin + depth * RayAt(part.rays, x, y);
         albedo = PartAlbedo(scene, part, t, hits.u[k], hits.v[k], point);
+        if (!part.mesh->look.empty()) ApplyLook(part, hits, k, &normal, &albedo, surface);
       }
     } else if (code != kNoHit) {
       normal = BackdropNormal(code);
@@ -312,6 +354,7 @@ void Illuminate(const SeenScene& seen, const PacketPixels& pixels, const PacketH
       surface->albedo[c][k] *= hits.part[k] == kNoHit ? 1.0f : lit;
     }
   }
+  if (surface->reflects) AddReflections(seen, pixels, surface);
   if (light.shadow > 0.0f) DarkenShadows(seen, pixels, hits, surface);
 }
 

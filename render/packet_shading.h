@@ -38,6 +38,10 @@ struct SeenScene {
 struct alignas(64) PacketSurface {
   float normal[3][kPacket];  // unit, world, facing the camera; 0 without a hit
   float albedo[3][kPacket];  // linear RGB; the background's without a hit
+  // Reflection of hits whose mesh has a look: F0, and roughness, negative for all others.
+  bool reflects = false;
+  float f0[3][kPacket];
+  float roughness[kPacket];
 };
 
 // Writes the hits on floor and walls, and kNoHit elsewhere.

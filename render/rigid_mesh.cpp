@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "render/light.h"
+#include "render/reflection.h"
 #include "render/rigid_mesh_content.h"
 
 namespace simwright::render {
@@ -120,10 +121,22 @@ RigidMesh::Content::Content(const std::vector<Eigen::Vector3f>& vertices,
   }
 }
 
-RigidMesh::RigidMesh(const core::TexturedMesh& mesh) {
+RigidMesh::RigidMesh(const core::TexturedMesh& mesh, const core::PbrLook& look) {
   core::RequireValid(mesh, "mesh of a scene");
+  RequireMaps(look);
   if (mesh.mesh.triangles.empty()) throw core::Error("a mesh without faces cannot be rendered");
-  content_ = std::make_unique<const Content>(SinglePrecision(mesh.mesh.vertices), mesh);
+  auto content = std::make_unique<Content>(SinglePrecision(mesh.mesh.vertices), mesh);
+  if (!mesh.triangle_material.empty()) content->look = look;
+  const bool bumpy = std::any_of(content->look.materials.begin(), content->look.materials.end(),
+                                 [](const core::PbrMaterial& m) { return m.normal_map >= 0; });
+  for (const Eigen::Vector3i& t : mesh.mesh.triangles) {
+    if (!bumpy || mesh.corner_uvs.empty()) break;
+    Eigen::Matrix3f& corners = content->corners.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      corners.col(k) = mesh.mesh.vertices[static_cast<std::size_t>(t[k])].cast<float>();
+    }
+  }
+  content_ = std::move(content);
 }
 
 RigidMesh::~RigidMesh() = default;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "core/mesh.h"
+#include "core/pbr_look.h"
 
 namespace simwright::render {
 
@@ -13,9 +14,10 @@ namespace simwright::render {
 // Immutable and thread-safe; any number of scenes share one.
 class RigidMesh {
  public:
-  // Copies what it needs from `mesh` (m). Throws core::Error for an invalid mesh or one without
-  // faces.
-  explicit RigidMesh(const core::TexturedMesh& mesh);
+  // Copies what it needs from `mesh` (m) and `look`, the materials' reflection; an empty look makes
+  // Lambertian surfaces. Throws core::Error for an invalid mesh or one without faces, or a look
+  // with a map that is missing.
+  explicit RigidMesh(const core::TexturedMesh& mesh, const core::PbrLook& look = {});
   ~RigidMesh();
   RigidMesh(const RigidMesh&) = delete;
   RigidMesh& operator=(const RigidMesh&) = delete;

@@ -29,6 +29,9 @@ struct RigidMesh::Content {
   std::vector<ShadedMaterial> materials;
   std::vector<Eigen::Vector2f> corner_uvs;  // (3M), or empty
   std::vector<core::Image> textures;
+  core::PbrLook look;
+  // The corners of triangles whose look has a normal map, mesh frame, one per column; else empty.
+  std::vector<Eigen::Matrix3f> corners;
 };
 
 // Returns the linear RGB of an sRGB value in [0, 1], and the sRGB byte of a linear value, clamped

@@ -1,5 +1,6 @@
 #include "render/scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -13,6 +14,7 @@ struct Instance {
   Eigen::Isometry3d world_from_mesh;
   std::vector<Eigen::Vector3f> vertices;  // (N x 3), world
   std::vector<Eigen::Vector3f> normals;   // (N x 3), world
+  const core::PbrLook* look = nullptr;
 };
 
 constexpr float kSmoothCosine = 0.766f;  // 40 degrees
@@ -43,10 +45,12 @@ Scene::Scene() : content_(std::make_unique<Content>()) {}
 
 Scene::~Scene() = default;
 
-int Scene::Add(const core::TexturedMesh* mesh, const Eigen::Isometry3d& world_from_mesh) {
+int Scene::Add(const core::TexturedMesh* mesh, const Eigen::Isometry3d& world_from_mesh,
+               const core::PbrLook* look) {
   core::RequireValid(*mesh, "scene");
+  if (look != nullptr) RequireMaps(*look);
   if (mesh->mesh.triangles.empty()) throw core::Error("a mesh without faces cannot be rendered");
-  Instance instance{mesh, world_from_mesh, {}, {}};
+  Instance instance{mesh, world_from_mesh, {}, {}, look};
   Content::Place(&instance, mesh->mesh.vertices);
   const int index = content_->tree.Add(instance.vertices, mesh->mesh.triangles, false);
   content_->instances.push_back(std::move(instance));
@@ -88,6 +92,35 @@ int Scene::size() const {
 
 const core::TexturedMesh& Scene::mesh(int instance) const {
   return *content_->instances.at(static_cast<size_t>(instance)).mesh;
+}
+
+const core::PbrLook* Scene::look(int instance) const {
+  return content_->instances[static_cast<size_t>(instance)].look;
+}
+
+bool Scene::HasLooks() const {
+  return std::any_of(content_->instances.begin(), content_->instances.end(),
+                     [](const Instance& instance) { return instance.look != nullptr; });
+}
+
+SurfaceReflection Scene::ReflectionAt(const Hit& hit, const Eigen::Vector3f& normal,
+                                      Eigen::Vector3f* perturbed) const {
+  *perturbed = normal;
+  const Instance& of = content_->instances[static_cast<size_t>(hit.instance)];
+  const core::TexturedMesh& mesh = *of.mesh;
+  if (of.look == nullptr || mesh.triangle_material.empty()) return {};
+  const size_t t = static_cast<size_t>(hit.triangle);
+  if (mesh.corner_uvs.empty()) {
+    return SampleReflection(*of.look, mesh.triangle_material[t], nullptr);
+  }
+  const Eigen::Vector2f* uvs = &mesh.corner_uvs[3 * t];
+  const Eigen::Vector2f uv = (1.0f - hit.u - hit.v) * uvs[0] + hit.u * uvs[1] + hit.v * uvs[2];
+  const SurfaceReflection surface = SampleReflection(*of.look, mesh.triangle_material[t], &uv);
+  if (surface.has_normal) {
+    *perturbed =
+        PerturbedNormal(surface.tangent_normal, normal, Corners(hit.instance, hit.triangle), uvs);
+  }
+  return surface;
 }
 
 Eigen::Matrix3f Scene::Corners(int instance, int triangle) const {

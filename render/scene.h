@@ -7,7 +7,9 @@
 #include <Eigen/Geometry>
 
 #include "core/mesh.h"
+#include "core/pbr_look.h"
 #include "render/hit.h"
+#include "render/reflection.h"
 
 namespace simwright::render {
 
@@ -24,10 +26,12 @@ class Scene {
   Scene& operator=(const Scene&) = delete;
 
   // Adds a copy of the mesh's geometry at `world_from_mesh`; `mesh` itself must outlive the scene,
-  // since its colours are read when shading. Returns the instance's index. Throws core::Error for
-  // an invalid mesh or one without faces.
+  // since its colours are read when shading, and so must `look`, the materials' reflection. Without
+  // a look (null) surfaces are Lambertian. Returns the instance's index. Throws core::Error for an
+  // invalid mesh or one without faces, or a look with a map that is missing.
   int Add(const core::TexturedMesh* mesh,
-          const Eigen::Isometry3d& world_from_mesh = Eigen::Isometry3d::Identity());
+          const Eigen::Isometry3d& world_from_mesh = Eigen::Isometry3d::Identity(),
+          const core::PbrLook* look = nullptr);
 
   // Replaces the vertices of an instance (N x 3, the same number, mesh frame). Call Commit
   // afterwards.
@@ -49,11 +53,19 @@ class Scene {
 
   int size() const;
   const core::TexturedMesh& mesh(int instance) const;
+  // Returns the look that the instance was added with; null if it has none.
+  const core::PbrLook* look(int instance) const;
+  // Returns true if any instance has a look.
+  bool HasLooks() const;
   // Returns a triangle's corner positions in the world, one per column. (3 x 3)
   Eigen::Matrix3f Corners(int instance, int triangle) const;
   // Returns the shading normal (area-weighted vertex normals where the surface is smooth within 40
   // degrees, else the face's own), unit, in the world.
   Eigen::Vector3f ShadingNormal(const Hit& hit) const;
+  // Returns the reflection of the instance's look at the hit, and the shading normal that its
+  // normal map makes of `normal` (unit, world, facing the camera).
+  SurfaceReflection ReflectionAt(const Hit& hit, const Eigen::Vector3f& normal,
+                                 Eigen::Vector3f* perturbed) const;
   // Returns the RGBA albedo, sRGB, at the hit.
   Eigen::Vector4f Albedo(const Hit& hit) const;
 

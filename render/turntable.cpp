@@ -11,7 +11,7 @@ namespace simwright::render {
 std::vector<core::Image> Turntable(const core::TexturedMesh& mesh,
                                    const TurntableOptions& options) {
   Scene scene;
-  scene.Add(&mesh);
+  scene.Add(&mesh, Eigen::Isometry3d::Identity(), options.look);
   scene.Commit();
   const Eigen::AlignedBox3d box = core::Bounds(mesh.mesh);
   constexpr double kFov = 0.5;

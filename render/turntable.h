@@ -4,6 +4,7 @@
 
 #include "core/image.h"
 #include "core/mesh.h"
+#include "core/pbr_look.h"
 
 namespace simwright::render {
 
@@ -13,6 +14,7 @@ struct TurntableOptions {
   double elevation = 0.42;      // rad above the horizon
   double first_azimuth = -1.2;  // rad from +x
   int samples_per_side = 3;
+  const core::PbrLook* look = nullptr;  // the materials' reflection; null: Lambertian
 };
 
 // Renders the mesh from all sides, framed to its bounds, with ambient occlusion. RGBA.

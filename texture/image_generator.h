@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/camera.h"
+#include "core/finding.h"
 #include "core/float_image.h"
 #include "core/image.h"
 
@@ -45,6 +46,9 @@ class ImageGenerator {
   // generator is deterministic. Throws core::Error for an invalid request and for a failure that
   // the user can mend, and core::Cancelled.
   virtual core::Image Generate(const ImageRequest& request) = 0;
+  // Returns the findings since the last call, e.g. a picture that was resized or a depth that the
+  // generator cannot use.
+  virtual core::Findings TakeFindings() { return {}; }
 };
 
 }  // namespace simwright::texture

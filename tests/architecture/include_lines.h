@@ -18,7 +18,7 @@ inline const std::map<std::string, int> kFloor = {
     {"tasks", 6},    {"asset_build", 6},  {"twin", 6}, {"scene", 6},        {"validation", 7},
     {"skills", 8},   {"importers", 7},   {"manipulation", 7}, {"workflows", 9},
     {"steering", 7}, {"certificate", 8}, {"viewer", 10},      {"cli", 11},
-    {"python", 11}};
+    {"python", 11},  {"proposals", 4}};
 
 // An include line of a module.
 struct Include {

@@ -5,6 +5,12 @@
 #include <assimp/scene.h>
 #include <tinyxml2.h>
 #include <assimp/Importer.hpp>
+#include <sdf/Link.hh>
+#include <sdf/Material.hh>
+#include <sdf/Model.hh>
+#include <sdf/Pbr.hh>
+#include <sdf/Root.hh>
+#include <sdf/Visual.hh>
 
 #include "assets/asset_folder.h"
 #include "core/files.h"
@@ -160,6 +166,35 @@ TEST_F(PbrFolder, TheMjcfHasTheHighlights) {
       root->FirstChildElement("worldbody")->FirstChildElement("body")->FirstChildElement("geom");
   EXPECT_STREQ(geom->Attribute("material"), material->Attribute("name"));
   EXPECT_EQ(geom->Attribute("rgba"), nullptr);
+}
+
+TEST_F(PbrFolder, TheSdfHasTheMaterial) {
+  sdf::Root root;
+  const sdf::Errors errors = root.Load((folder_ / "sample_box.sdf").string());
+  EXPECT_TRUE(errors.empty()) << errors.front().Message();
+  const sdf::Model* model = root.Model();
+  ASSERT_NE(model, nullptr);
+  const sdf::Material* material = model->LinkByIndex(0)->VisualByIndex(0)->Material();
+  ASSERT_NE(material, nullptr);
+  const Eigen::Vector4f& color = asset_.visual.materials[0].base_color;
+  EXPECT_NEAR(material->Diffuse().R(), color.x(), 1e-6);
+  const sdf::PbrWorkflow* metal = material->PbrMaterial()->Workflow(sdf::PbrWorkflowType::METAL);
+  ASSERT_NE(metal, nullptr);
+  EXPECT_EQ(metal->RoughnessMap(), "roughness_000.png");
+  EXPECT_EQ(metal->MetalnessMap(), "metallic_000.png");
+  EXPECT_EQ(metal->NormalMap(), "normal_000.png");
+  EXPECT_EQ(metal->AlbedoMap(), "");
+  // Without maps the factors are stated.
+  PbrLook plain = look_;
+  plain.materials[0].metallic_map = plain.materials[0].roughness_map = -1;
+  WriteAsset(asset_, folder_);
+  AddPbrLook(asset_.visual, plain, asset_.name, folder_);
+  sdf::Root again;
+  EXPECT_TRUE(again.Load((folder_ / "sample_box.sdf").string()).empty());
+  metal = again.Model()->LinkByIndex(0)->VisualByIndex(0)->Material()->PbrMaterial()->Workflow(
+      sdf::PbrWorkflowType::METAL);
+  EXPECT_NEAR(metal->Metalness(), 0.5, 1e-6);
+  EXPECT_NEAR(metal->Roughness(), 0.8, 1e-6);
 }
 
 // Folders of earlier versions have no "materials"; a wrong value is an error.

@@ -11,7 +11,7 @@ cmake --preset sanitize > /dev/null
 cmake --build --preset sanitize --target fuzz_targets
 targets="archive_fuzz image_fuzz mesh_fuzz urdf_fuzz catalogue_fuzz chat_fuzz physics_answer_fuzz
   prompt_fuzz reward_fuzz
-  task_answer_fuzz robot_side_file_fuzz trajectory_fuzz grasp_fuzz view_request_fuzz"
+  task_answer_fuzz robot_side_file_fuzz trajectory_fuzz grasp_fuzz image_answer_fuzz view_request_fuzz"
 mkdir -p "$build/found"
 # Small files of each kind, made here so that no binary is kept.
 image_seeds=$build/seeds/image_fuzz
@@ -42,7 +42,7 @@ rm -rf "$folder"
 mkdir -p "$build/seeds/reward_fuzz"
 cp "$root"/tests/reward/corpus/*.py "$build/seeds/reward_fuzz"
 # All at once: most of the time of some goes into files, that of others into decoding. An input has
-# a minute: fourteen targets share the cores, and planning where things of a URDF stand takes a
+# a minute: fifteen targets share the cores, and planning where things of a URDF stand takes a
 # second.
 fuzz() {
   local target=$1 folder

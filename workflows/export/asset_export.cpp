@@ -4,6 +4,7 @@
 
 #include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
+#include "assets/glb_asset.h"
 #include "assets/usd_asset.h"
 #include "assets/usd_tree.h"
 #include "core/error.h"
@@ -23,12 +24,31 @@ void Write(const assets::UsdFiles& files, const std::string& name,
   staged.Commit();
 }
 
+void WriteGlb(const std::string& glb, const AssetExportRequest& request,
+              AssetExportReport* report) {
+  if (fs::exists(request.output) && !request.force) {
+    throw core::Error("exists already", request.output.string(), "use --force to replace it");
+  }
+  report->output = request.output.has_parent_path() ? request.output.parent_path() : ".";
+  report->file = request.output.filename().string();
+  core::WriteFile(request.output, glb);
+}
+
+int CountOfTextures(const std::vector<core::Image>& textures, const assets::PbrLook& look) {
+  return static_cast<int>(textures.size() + look.images.size());
+}
+
 void ExportRigid(const AssetExportRequest& request, AssetExportReport* report) {
   const assets::Asset asset = assets::ReadAsset(request.asset);
   const assets::PbrLook look = assets::ReadPbrLook(request.asset);
   report->bodies = 1;
   report->shapes = static_cast<int>(asset.parts.size());
   report->mass = asset.inertial.mass;
+  if (request.format == AssetFormat::kGlb) {
+    report->textures = CountOfTextures(asset.visual.textures, look);
+    WriteGlb(assets::GlbText(asset, look), request, report);
+    return;
+  }
   Write(assets::UsdOf(asset, look), asset.name, request, report);
 }
 
@@ -40,6 +60,13 @@ void ExportArticulated(const AssetExportRequest& request, AssetExportReport* rep
     report->mass += link.inertial.mass;
   }
   for (const assets::Joint& joint : asset.joints) report->joints += joint.Moves() ? 1 : 0;
+  if (request.format == AssetFormat::kGlb) {
+    for (const assets::ArticulatedLink& link : asset.links) {
+      report->textures += CountOfTextures(link.visual.textures, {});
+    }
+    WriteGlb(assets::GlbText(asset), request, report);
+    return;
+  }
   report->findings = assets::UsdTreeFindings(*assets::MakeKinematicModel(asset), asset.fixed);
   Write(assets::UsdOf(asset), asset.name, request, report);
 }
@@ -54,6 +81,9 @@ AssetExportReport ExportAsset(const AssetExportRequest& request) {
   if (!assets::IsAssetFolder(request.asset)) {
     throw core::Error("holds no asset.json", request.asset.string(),
                       "give a folder made by `simwright lift`, `import` or `library`");
+  }
+  if (request.format == AssetFormat::kGlb && request.output.extension() != ".glb") {
+    throw core::Error("the file's name must end in .glb", request.output.string());
   }
   AssetExportReport report;
   report.output = request.output;

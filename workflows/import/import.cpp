@@ -249,7 +249,9 @@ class Importer {
     outcome->seconds = built.seconds;
     Keep(item, outcome, [&](const fs::path& folder) {
       assets::WriteAsset(built.asset, folder);
-      core::WritePng(folder / "preview.png", asset_build::AssetPreview(built.asset));
+      core::WritePng(
+          folder / "preview.png",
+          asset_build::AssetPreview(built.asset, mesh.look.empty() ? nullptr : &mesh.look));
       assets::AddPbrLook(built.asset.visual, mesh.look, built.asset.name, folder);
       if (options_.add_files) options_.add_files(visual, folder);
       if (!mesh.as_read.mesh.empty()) {

@@ -163,6 +163,14 @@ LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
 
 namespace {
 
+// An object of the library that is textured by the photo has the photo as it is.
+void SayDelightingUnused(core::Findings* findings) {
+  std::erase_if(*findings, [](const core::Finding& f) { return f.code == "delighting"; });
+  findings->push_back({"delighting-unused", core::Severity::kWarning, "",
+                       "the fitted object of the library keeps the photo's shading in its texture",
+                       0.0, "lift with --shape free"});
+}
+
 double LiftSeconds(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -192,6 +200,7 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
   options.focal_35mm = core::ExifFocalLength35mm(bytes);
   options.segmentation.network = request.segmenter;
   options.seed = request.seed;
+  options.delight = request.delight;
   // A fit needs the object's outline alone.
   options.effort =
       request.shape == LiftShape::kFitted ? asset_lift::LiftEffort::kOutline : request.effort;
@@ -223,6 +232,7 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
     } else if (chosen) {
       TakeFit(*chosen, &lifted);
     }
+    if (chosen && request.delight) SayDelightingUnused(&lifted.findings);
   }
   return FinishLift(finishing, LiftSeconds(start), std::move(lifted), &staged, progress);
 }

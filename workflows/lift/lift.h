@@ -33,6 +33,7 @@ struct LiftRequest {
   physics_params::StatedPhysics stated;
   double elevation_degrees = -1.0;  // negative: estimated
   double fov_degrees = 0.0;         // 0: EXIF or the default
+  bool delight = false;             // the texture without the photo's shading (kFree)
   LiftShape shape = LiftShape::kFree;
   asset_lift::LiftEffort effort = asset_lift::LiftEffort::kFull;
   std::filesystem::path prior;  // the user's TorchScript view prior; empty: the shipped one
