@@ -1,0 +1,132 @@
+#include "texture/painting/seam_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "core/error.h"
+
+namespace simwright::texture {
+namespace {
+
+constexpr double kHalfGrey = 0.5 / 255.0;
+
+float ColorStep(const core::Image& texture, const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
+  const Eigen::Vector4f step = core::SampleTexture(texture, a) - core::SampleTexture(texture, b);
+  return step.head<3>().norm() / std::sqrt(3.0f);
+}
+
+// Returns one number per vertex, the same for vertices at one place.
+std::vector<int> WeldedVertices(const core::TriangleMesh& mesh) {
+  const double cell = 1e-6 * std::max(1e-9, core::Bounds(mesh).diagonal().norm());
+  std::map<std::tuple<long, long, long>, int> places;
+  std::vector<int> welded;
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    const auto key = std::make_tuple(std::lround(v.x() / cell), std::lround(v.y() / cell),
+                                     std::lround(v.z() / cell));
+    welded.push_back(places.try_emplace(key, static_cast<int>(places.size())).first->second);
+  }
+  return welded;
+}
+
+// The side of a triangle at an edge: texture coordinates of the edge's ends, in the edge's order,
+// and of the third corner.
+struct EdgeSide {
+  int triangle = 0;
+  Eigen::Vector2f from{0, 0}, to{0, 0}, apex{0, 0};
+
+  // Returns the point at share t of the edge, `inset` inside the triangle (texture coordinates).
+  Eigen::Vector2f At(float t, float inset) const {
+    const Eigen::Vector2f along = to - from;
+    const Eigen::Vector2f on = from + t * along;
+    Eigen::Vector2f inward(-along.y(), along.x());
+    if (inward.dot(apex - from) < 0.0f) inward = -inward;
+    const float length = inward.norm();
+    return length > 0.0f ? Eigen::Vector2f(on + inset / length * inward) : on;
+  }
+};
+
+void Summarise(std::vector<float> steps, int* count, double* mean, double* p95) {
+  *count = static_cast<int>(steps.size());
+  if (steps.empty()) return;
+  for (const float step : steps) *mean += step / static_cast<double>(steps.size());
+  std::sort(steps.begin(), steps.end());
+  *p95 = steps[static_cast<std::size_t>(0.95 * static_cast<double>(steps.size() - 1))];
+}
+
+std::map<std::pair<int, int>, std::vector<EdgeSide>> EdgesOf(const core::TexturedMesh& mesh) {
+  const std::vector<int> welded = WeldedVertices(mesh.mesh);
+  std::map<std::pair<int, int>, std::vector<EdgeSide>> edges;
+  for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = welded[mesh.mesh.triangles[t][k]];
+      const int b = welded[mesh.mesh.triangles[t][(k + 1) % 3]];
+      if (a == b) continue;
+      EdgeSide side;
+      side.triangle = static_cast<int>(t);
+      side.from = mesh.corner_uvs[3 * t + k];
+      side.to = mesh.corner_uvs[3 * t + (k + 1) % 3];
+      side.apex = mesh.corner_uvs[3 * t + (k + 2) % 3];
+      if (a > b) std::swap(side.from, side.to);
+      edges[std::minmax(a, b)].push_back(side);
+    }
+  }
+  return edges;
+}
+
+// The steps across the borders and beside them.
+struct BorderSteps {
+  std::vector<float> across, beside;
+};
+
+BorderSteps StepsAtBorders(const core::TexturedMesh& mesh, double largest_turn) {
+  const core::Image& texture = mesh.textures.front();
+  const float texel = 1.0f / static_cast<float>(texture.width);
+  BorderSteps steps;
+  for (const auto& [ends, sides] : EdgesOf(mesh)) {
+    if (sides.size() != 2) continue;
+    const bool joined = (sides[0].from - sides[1].from).norm() < 1e-6f &&
+                        (sides[0].to - sides[1].to).norm() < 1e-6f;
+    if (joined) continue;
+    const Eigen::Vector3d n0 = core::TriangleAreaVector(mesh.mesh, sides[0].triangle);
+    const Eigen::Vector3d n1 = core::TriangleAreaVector(mesh.mesh, sides[1].triangle);
+    if (n0.norm() == 0.0 || n1.norm() == 0.0) continue;
+    if (n0.normalized().dot(n1.normalized()) < std::cos(largest_turn)) continue;
+    const float length =
+        std::min((sides[0].to - sides[0].from).norm(), (sides[1].to - sides[1].from).norm());
+    const int samples = std::clamp(static_cast<int>(length / texel / 2.0f), 1, 64);
+    for (int s = 0; s < samples; ++s) {
+      const float t = (static_cast<float>(s) + 0.5f) / static_cast<float>(samples);
+      steps.across.push_back(
+          ColorStep(texture, sides[0].At(t, 0.5f * texel), sides[1].At(t, 0.5f * texel)));
+      for (const EdgeSide& side : sides) {
+        steps.beside.push_back(
+            ColorStep(texture, side.At(t, 0.5f * texel), side.At(t, 1.5f * texel)));
+      }
+    }
+  }
+  return steps;
+}
+
+}  // namespace
+
+double SeamSteps::Ratio() const {
+  return seam_samples == 0 ? 0.0 : seam_mean / std::max(inside_mean, kHalfGrey);
+}
+
+SeamSteps MeasureSeamSteps(const core::TexturedMesh& mesh, double largest_turn) {
+  if (mesh.textures.empty() || mesh.corner_uvs.size() != 3 * mesh.mesh.triangles.size() ||
+      mesh.mesh.empty()) {
+    throw core::Error("the mesh has no texture to measure");
+  }
+  const BorderSteps borders = StepsAtBorders(mesh, largest_turn);
+  SeamSteps steps;
+  Summarise(borders.across, &steps.seam_samples, &steps.seam_mean, &steps.seam_p95);
+  int beside = 0;
+  Summarise(borders.beside, &beside, &steps.inside_mean, &steps.inside_p95);
+  return steps;
+}
+
+}  // namespace simwright::texture

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "core/mesh.h"
+
+namespace simwright::texture {
+
+// The colour steps of a texture over the width of one texel, RMS over the channels, in [0, 1].
+struct SeamSteps {
+  int seam_samples = 0;
+  double seam_mean = 0.0, seam_p95 = 0.0;      // across the borders of charts
+  double inside_mean = 0.0, inside_p95 = 0.0;  // beside them, in the same direction
+
+  // Returns the mean step across borders over that inside, 0 without borders; a texture of one
+  // colour has no step inside and counts at least half a grey level.
+  double Ratio() const;
+};
+
+// Measures the steps where two triangles meet at an edge of the surface but not of the atlas, half
+// a texel from the edge on both sides, and beside it, from half a texel to one and a half. Edges at
+// which the surface turns by more than `largest_turn` (rad) are left out: a print may end there.
+// Vertices at one place are one. The mesh has one texture, its first.
+SeamSteps MeasureSeamSteps(const core::TexturedMesh& mesh, double largest_turn);
+
+}  // namespace simwright::texture
