@@ -63,10 +63,12 @@ MaterialSample SkinAt(const SurfaceMaterial& m, const PartFrame& frame,
           place.direction.x() * std::cos(angle) + place.direction.y() * std::sin(angle);
       const float fine = Streaks(place, 22.0f, 1.4f, seed + 1);
       const float broad = Streaks(place, 7.0f, 0.9f, seed + 2);
-      const float blush = std::clamp(0.62f + 0.5f * side + 0.55f * fine + 0.45f * broad +
-                                         0.25f * cloud - 1.2f * ends * m.strength,
-                                     0.0f, 1.0f);
-      sample.color = Mix(m.second * (1.0f + 0.06f * cloud), m.color, SmoothStep(0.1f, 0.8f, blush));
+      const float blush = 0.55f + 0.42f * side + 0.22f * fine + 0.20f * broad + 0.30f * cloud -
+                          0.55f * ends * m.strength;
+      const float flecks = 0.16f * SmoothStep(0.1f, 0.6f, Streaks(place, 60.0f, 2.5f, seed + 4));
+      sample.color = Mix(m.second * (1.0f + 0.06f * cloud), m.color,
+                         std::clamp(SmoothStep(-0.25f, 0.75f, blush) + flecks, 0.0f, 1.0f));
+      sample.color *= 1.0f + 0.10f * fine;
       const float dots = Spots(p, 0.085f * size, 0.09f, point.footprint, seed + 3);
       sample.color = Mix(sample.color, Eigen::Vector3f(0.90f, 0.82f, 0.62f), 0.55f * dots);
       break;

@@ -95,10 +95,12 @@ class Baker {
     if (!inside_.empty() && inside_[t] && plan_.inside_material[index] >= 0) {
       index = plan_.inside_material[index];
     }
-    const SurfaceMaterial& material = plan_.materials[index];
     const PartFrame& frame = plan_.frames[plan_.triangle_frame[t]];
     MaterialPoint point;
     point.position = map_.Position(mesh_, texel).cast<float>();
+    const int handle = plan_.handle_material[index];
+    if (handle >= 0 && IsOnHandle(frame, point.position)) index = handle;
+    const SurfaceMaterial& material = plan_.materials[index];
     render::Hit hit;
     hit.instance = 0;
     hit.triangle = map_.triangle[texel];
@@ -166,6 +168,13 @@ std::vector<std::uint8_t> InsideOfVessel(const core::TriangleMesh& mesh) {
     inside[static_cast<std::size_t>(t)] = blocked >= kInsideBlocked * kInsideRays && sees_sky;
   });
   return inside;
+}
+
+bool IsOnHandle(const PartFrame& frame, const Eigen::Vector3f& position) {
+  constexpr float kBeyond = 1.015f;  // of the radius
+  if (!frame.round) return false;
+  const float radius = 0.5f * frame.box.sizes().head<2>().maxCoeff();
+  return (position - frame.box.center()).head<2>().norm() > kBeyond * radius;
 }
 
 MaterialMaps BakeMaterials(const core::TriangleMesh& mesh, const std::vector<Eigen::Vector2f>& uvs,

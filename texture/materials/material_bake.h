@@ -14,8 +14,9 @@ namespace simwright::texture {
 // The materials of a mesh by triangle.
 struct MaterialPlan {
   std::vector<SurfaceMaterial> materials;
-  // For each material the index of the one that the inside of a vessel has instead, or -1.
-  std::vector<int> inside_material;
+  // For each material the index of the one that the inside of a vessel has instead, or -1; and of
+  // the one that a handle or spout has, which sticks out of a round body.
+  std::vector<int> inside_material, handle_material;
   std::vector<PartFrame> frames;
   std::vector<int> triangle_material, triangle_frame;  // (M)
 };
@@ -43,6 +44,9 @@ std::vector<PartFrame> FramesOfLabels(const core::TriangleMesh& mesh,
 // Returns for each triangle whether it lies inside a vessel: most horizontal directions from it,
 // but not all of those upwards, are blocked by the mesh itself.
 std::vector<std::uint8_t> InsideOfVessel(const core::TriangleMesh& mesh);
+
+// Returns true for a point outside the circle of a round body: on its handle or spout.
+bool IsOnHandle(const PartFrame& frame, const Eigen::Vector3f& position);
 
 // Evaluates the plan at each texel of the map. `uvs` (3M x 2) are those of the map. Throws
 // core::Error if sizes do not match, and core::Cancelled.

@@ -221,6 +221,19 @@ Eigen::Vector3f ColorFrom(const float (&color)[3]) {
   return {color[0], color[1], color[2]};
 }
 
+// Things of these materials come in any colour.
+bool ColorsVary(Substance substance) {
+  return substance == kGlaze || substance == kPaint || substance == kPlastic ||
+         substance == kFabric || substance == kFelt || substance == kRubber;
+}
+
+// Turns the colour's hue by an angle (rad) about the grey axis.
+Eigen::Vector3f HueTurned(const Eigen::Vector3f& color, float angle) {
+  const Eigen::Vector3f axis = Eigen::Vector3f::Constant(0.57735f);
+  return std::cos(angle) * color + std::sin(angle) * axis.cross(color) +
+         (1.0f - std::cos(angle)) * axis.dot(color) * axis;
+}
+
 std::vector<const MaterialRow*> RowsOf(std::string_view name) {
   std::vector<const MaterialRow*> rows;
   for (const MaterialRow& row : kRows) {
@@ -235,18 +248,22 @@ bool IsNamedMaterial(std::string_view name) {
   return !RowsOf(name).empty();
 }
 
-SurfaceMaterial NamedMaterial(std::string_view name, core::Rng* rng) {
+SurfaceMaterial NamedMaterial(std::string_view name, core::Rng* rng,
+                              std::optional<std::uint64_t> turn) {
   const std::vector<const MaterialRow*> rows = RowsOf(name);
   if (rows.empty()) throw core::Error("is not in the list of materials", std::string(name));
-  const MaterialRow& row = *rows[static_cast<std::size_t>(
-      core::UniformIndex(*rng, static_cast<std::int64_t>(rows.size())))];
+  const auto drawn =
+      static_cast<std::uint64_t>(core::UniformIndex(*rng, static_cast<std::int64_t>(rows.size())));
+  const MaterialRow& row = *rows[turn.value_or(drawn) % rows.size()];
   SurfaceMaterial material;
   material.name = row.name;
   material.substance = row.substance;
   const float light = static_cast<float>(core::Uniform(*rng, 0.94, 1.06));
   const float warm = static_cast<float>(core::Uniform(*rng, -0.015, 0.015));
+  const float turned =
+      ColorsVary(row.substance) ? static_cast<float>(core::Uniform(*rng, -0.30, 0.30)) : 0.0f;
   const auto varied = [&](const Eigen::Vector3f& color) {
-    return Eigen::Vector3f(light * color + Eigen::Vector3f(warm, 0.0f, -warm))
+    return Eigen::Vector3f(light * HueTurned(color, turned) + Eigen::Vector3f(warm, 0.0f, -warm))
         .cwiseMax(0.0f)
         .cwiseMin(0.98f)
         .eval();

@@ -14,10 +14,11 @@ namespace simwright::texture {
 // materials. Names are in lower case with blanks between words.
 bool IsNamedMaterial(std::string_view name);
 
-// Returns a material of the name. Where it comes in several colours, one is drawn, and its seed and
-// small differences of colour, roughness and scale are drawn always. Throws core::Error for an
-// unknown name.
-SurfaceMaterial NamedMaterial(std::string_view name, core::Rng* rng);
+// Returns a material of the name. Where it comes in several colours, number `turn` of them is taken
+// (in a circle), by default a drawn one; its seed and small differences of colour, roughness and
+// scale are drawn always. Throws core::Error for an unknown name.
+SurfaceMaterial NamedMaterial(std::string_view name, core::Rng* rng,
+                              std::optional<std::uint64_t> turn = std::nullopt);
 
 // Returns all names, sorted, each once.
 std::vector<std::string> MaterialNames();
