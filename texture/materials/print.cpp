@@ -47,9 +47,9 @@ MaterialSample PrintAt(const SurfaceMaterial& m, const PartFrame& frame,
                 to = m.print_is_label ? kLabelTo : 0.94f;
     const bool side = std::abs(point.normal.z()) < 0.6f;
     if (side && unit.z() > from && unit.z() < to) {
-      // The picture goes around twice: its front shows from both sides.
+      // The picture goes around twice: its middle shows at -y and at +y.
       const Eigen::Vector3f p = point.position - frame.box.center();
-      const float turn = std::atan2(p.y(), -p.x()) / 3.1415927f + 0.5f;
+      const float turn = std::atan2(p.y(), p.x()) / 3.1415927f + 1.0f;
       sample.color = PrintColor(*m.print, turn - std::floor(turn), (unit.z() - from) / (to - from));
       sample.roughness = 0.35f;
     }
@@ -57,7 +57,6 @@ MaterialSample PrintAt(const SurfaceMaterial& m, const PartFrame& frame,
     bool is_panel = false;
     const Eigen::Vector2f at = PanelPlace(frame, point, &is_panel);
     if (is_panel) sample.color = PrintColor(*m.print, at.x(), at.y());
-    // Edges of the board are worn white.
   }
   const float fibre = FractalNoise(point.position / 0.0015f, 2, point.footprint / 0.0015f, m.seed);
   sample.color *= 1.0f + 0.012f * fibre;

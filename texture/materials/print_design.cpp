@@ -9,7 +9,7 @@
 namespace simwright::texture {
 namespace {
 
-// Colours of a package, sRGB as BGR is not needed: pictures are drawn in RGB.
+// The colours of a package, RGB.
 struct PrintColors {
   cv::Scalar ground, field, accent, ink;
 };
@@ -112,7 +112,8 @@ void DrawField(const PrintColors& colors, core::Rng* rng, cv::Mat* picture) {
     case 1: {
       std::vector<cv::Point> wave = {{w, h}, {0, h}};
       const double turn = core::Uniform(*rng, 0.0, 6.28);
-      for (int x = 0; x <= w; x += std::max(1, w / 96)) {
+      for (int k = 0; k <= 96; ++k) {
+        const int x = k * w / 96;
         // A whole number of waves, so that the print closes around a can.
         const double y = 0.44 + 0.07 * std::sin(2.0 * M_PI * x / w + turn);
         wave.emplace_back(x, static_cast<int>(y * h));
@@ -143,7 +144,7 @@ core::Image DrawPrint(const PrintDesign& design, core::Rng* rng) {
   picture.setTo(colors.ground);
   DrawField(colors, rng, &picture);
   const double side = std::min(0.62 * w, 0.95 * h);
-  const double emblem = 0.20 * side, middle = 0.5 * w;
+  const double emblem = 0.25 * side, middle = 0.5 * w;
   const double title_y = core::Uniform(*rng, 0.26, 0.32) * h;
   DrawEmblem({middle, 0.62 * h}, emblem, colors, rng, &picture);
   const cv::Vec3b under =

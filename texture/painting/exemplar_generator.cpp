@@ -194,18 +194,9 @@ double MeanDepth(const core::FloatImage& depth) {
 
 // Returns the swatch at the scale of the view.
 cv::Mat ScaledSwatch(const Swatch& swatch, const ImageRequest& request) {
-  cv::Mat picture = MatOf(swatch.picture);
-  double factor = 1.0;
   const double depth = MeanDepth(request.depth);
-  if (depth > 0.0 && request.camera.fx > 0.0) {
-    factor = swatch.pixel_size / (depth / request.camera.fx);
-  }
-  const double side = std::min(picture.cols, picture.rows);
-  factor = std::clamp(factor, kLeastSwatch / side, kMostSwatch / side);
-  if (std::abs(factor - 1.0) < 0.01) return picture;
-  cv::Mat scaled;
-  cv::resize(picture, scaled, {}, factor, factor, factor < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC);
-  return scaled;
+  if (!(depth > 0.0) || !(request.camera.fx > 0.0)) return MatOf(swatch.picture);
+  return MatOf(Rescaled(swatch, depth / request.camera.fx).picture);
 }
 
 }  // namespace
@@ -241,6 +232,17 @@ core::Image ExemplarGenerator::Generate(const ImageRequest& request) {
     }
   }
   return ImageOf(Quilt(swatch, picture, known, wanted, request.seed).Fill());
+}
+
+Swatch Rescaled(const Swatch& swatch, double pixel_size) {
+  const cv::Mat picture = MatOf(swatch.picture);
+  const double side = std::min(picture.cols, picture.rows);
+  const double factor = std::clamp(swatch.pixel_size / pixel_size, (kLeastSwatch + 0.5) / side,
+                                   (kMostSwatch + 0.5) / side);
+  if (std::abs(factor - 1.0) < 0.01) return swatch;
+  cv::Mat scaled;
+  cv::resize(picture, scaled, {}, factor, factor, factor < 1.0 ? cv::INTER_AREA : cv::INTER_CUBIC);
+  return {ImageOf(scaled), swatch.pixel_size / factor};
 }
 
 core::Image WithoutShading(const core::Image& picture) {

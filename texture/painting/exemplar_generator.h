@@ -31,6 +31,10 @@ class ExemplarGenerator : public ImageGenerator {
   Swatch swatch_;
 };
 
+// Returns the swatch with pixels of `pixel_size` (m), of 32 to 512 pixels per side: a pattern that
+// would become smaller shows larger than it is.
+Swatch Rescaled(const Swatch& swatch, double pixel_size);
+
 // Returns the picture without its slow changes of brightness, which are shading: a swatch whose
 // sides differ would show every patch.
 core::Image WithoutShading(const core::Image& picture);

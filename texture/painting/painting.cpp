@@ -42,21 +42,28 @@ float Smooth(float from, float to, float value) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-Eigen::Vector3f Bilinear(const core::Image& image, const Eigen::Vector2d& pixel) {
-  const double px = std::clamp(pixel.x() - 0.5, 0.0, image.width - 1.0);
-  const double py = std::clamp(pixel.y() - 0.5, 0.0, image.height - 1.0);
-  const int x = std::min(static_cast<int>(px), std::max(0, image.width - 2));
-  const int y = std::min(static_cast<int>(py), std::max(0, image.height - 2));
+// Samples the picture bilinearly from the pixels that the trimap does not keep: those that it keeps
+// may show bare surface.
+Eigen::Vector3f ChangedColor(const core::Image& picture, const core::Image& trimap,
+                             const Eigen::Vector2d& pixel) {
+  const double px = std::clamp(pixel.x() - 0.5, 0.0, picture.width - 1.0);
+  const double py = std::clamp(pixel.y() - 0.5, 0.0, picture.height - 1.0);
+  const int x = std::min(static_cast<int>(px), std::max(0, picture.width - 2));
+  const int y = std::min(static_cast<int>(py), std::max(0, picture.height - 2));
   const float u = static_cast<float>(px - x), v = static_cast<float>(py - y);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  float weights = 0.0f;
   for (int k = 0; k < 4; ++k) {
-    const int dx = k & 1, dy = k >> 1;
-    const std::uint8_t* at =
-        image.At(std::min(x + dx, image.width - 1), std::min(y + dy, image.height - 1));
-    const float weight = (dx ? u : 1.0f - u) * (dy ? v : 1.0f - v);
-    for (int c = 0; c < 3; ++c) sum[c] += weight * static_cast<float>(at[c]) / 255.0f;
+    const int nx = std::min(x + (k & 1), picture.width - 1);
+    const int ny = std::min(y + (k >> 1), picture.height - 1);
+    if (*trimap.At(nx, ny) == kTrimapKeep) continue;
+    const float weight = ((k & 1) ? u : 1.0f - u) * ((k >> 1) ? v : 1.0f - v);
+    for (int c = 0; c < 3; ++c) {
+      sum[c] += weight * static_cast<float>(picture.At(nx, ny)[c]) / 255.0f;
+    }
+    weights += weight;
   }
-  return sum;
+  return sum / std::max(1e-6f, weights);
 }
 
 class Painter {
@@ -280,7 +287,7 @@ class Painter {
         const Eigen::Vector3f to_eye = eye - point;
         const Eigen::Vector3f start = point + 1e-4f * reach_ * normals_[texel];
         if (scene_.Occluded(start, to_eye, 1e-4f, 1.0f)) continue;
-        const Eigen::Vector3f color = Bilinear(view->picture, {at.x(), at.y()});
+        const Eigen::Vector3f color = ChangedColor(view->picture, view->trimap, {at.x(), at.y()});
         const float weight = painted ? Smooth(kAcceptFrom, kAcceptTo, share.at<float>(y, x)) : 1.0f;
         colors_[texel] += weight * (color - colors_[texel]);
         if (weight < 0.5f) continue;

@@ -9,6 +9,7 @@
 #include "core/files.h"
 #include "core/image.h"
 #include "texture/materials/material_bake.h"
+#include "texture/painting/exemplar_bake.h"
 #include "texture/painting/painting.h"
 #include "workflows/texture/asset_surfaces.h"
 #include "workflows/texture/exemplar_source.h"
@@ -72,12 +73,9 @@ class Texturing {
       words_ = ReadAssetWords(request_.prompt, asset_, &report_.findings);
     }
     if (request_.exemplar.empty() && request_.like.empty()) return;
-    const texture::Swatch swatch =
-        request_.like.empty()
-            ? SwatchFromPhoto(request_.exemplar, LengthOf(asset_), &report_.findings)
-            : SwatchFromAsset(request_.like, &report_.findings);
-    exemplar_ = swatch.picture;
-    if (!generator_) generator_ = std::make_shared<texture::ExemplarGenerator>(swatch);
+    swatch_ = request_.like.empty()
+                  ? SwatchFromPhoto(request_.exemplar, LengthOf(asset_), &report_.findings)
+                  : SwatchFromAsset(request_.like, &report_.findings);
   }
 
   std::vector<fs::path> Folders() const {
@@ -123,14 +121,14 @@ class Texturing {
       }
       maps.push_back(texture::BakeMaterials(surface.mesh.mesh, surface.mesh.corner_uvs, surface.map,
                                             PlanOf(surface, look)));
-      if (generator_) unseen += Paint(surface, look, variant.seed, &maps.back());
+      unseen += Paint(surface, look, variant.seed, &maps.back());
     }
     variant.unseen_share = unseen / static_cast<double>(std::max(1, report_.texels));
     for (std::size_t s = 0; s < asset_.slots.size(); ++s) {
       const std::string& slot = asset_.slots[s].material;
-      const bool is_painted = generator_ && look.is_main[s];
+      const bool is_painted = SourceName() != "materials" && look.is_main[s];
       variant.materials.push_back((slot.empty() ? "surface" : slot) + ": " +
-                                  (is_painted ? generator_->name() : look.materials[s].name));
+                                  (is_painted ? SourceName() : look.materials[s].name));
     }
     std::sort(variant.materials.begin(), variant.materials.end());
     variant.materials.erase(std::unique(variant.materials.begin(), variant.materials.end()),
@@ -145,30 +143,43 @@ class Texturing {
     report_.variants.push_back(std::move(variant));
   }
 
-  // Paints the main surfaces over the generator; returns the number of texels that no view saw.
+  // Gives the main surfaces the colours of the exemplar, or of the generator where there is one;
+  // returns the number of texels that no view saw.
   double Paint(const TexturedSurface& surface, const VariantLook& look, std::uint64_t seed,
                texture::MaterialMaps* maps) {
     bool any_main = false;
     for (const int slot : surface.triangle_slot) any_main |= look.is_main[slot];
-    if (!any_main) return 0.0;
-    texture::PaintingOptions options;
-    options.prompt = request_.prompt;
-    options.exemplar = exemplar_;
-    options.seed = seed * 1000003u;
-    const texture::Painting painting =
-        texture::PaintTexture(surface.mesh, surface.map, options, generator_.get(), progress_);
+    if (!any_main || (!generator_ && swatch_.picture.empty())) return 0.0;
+    core::Image colors;
+    double unseen_share = 0.0;
+    if (generator_) {
+      texture::PaintingOptions options;
+      options.prompt = request_.prompt;
+      options.exemplar = swatch_.picture;
+      options.seed = seed * 1000003u;
+      texture::Painting painting =
+          texture::PaintTexture(surface.mesh, surface.map, options, generator_.get(), progress_);
+      colors = std::move(painting.texture);
+      unseen_share = painting.unseen_share;
+    } else {
+      colors = texture::BakeExemplar(surface.mesh.mesh, surface.map, swatch_, seed);
+    }
     double inside = 0.0;
     for (std::size_t i = 0; i < surface.map.count(); ++i) {
       if (surface.map.triangle[i] < 0) continue;
       inside += surface.map.inside[i];
       const int slot = surface.triangle_slot[static_cast<std::size_t>(surface.map.triangle[i])];
       if (!look.is_main[slot]) continue;
-      for (int c = 0; c < 3; ++c) {
-        maps->color.pixels[3 * i + c] = painting.texture.pixels[3 * i + c];
-      }
+      for (int c = 0; c < 3; ++c) maps->color.pixels[3 * i + c] = colors.pixels[3 * i + c];
     }
     texture::FillBetweenCharts(surface.map, texture::kGutter, &maps->color);
-    return painting.unseen_share * inside;
+    return unseen_share * inside;
+  }
+
+  // What the main surfaces are coloured by.
+  std::string SourceName() const {
+    if (generator_) return generator_->name();
+    return swatch_.picture.empty() ? "materials" : "exemplar";
   }
 
   core::OrderedJson RecordOf(const TextureVariant& variant) const {
@@ -177,7 +188,7 @@ class Texturing {
     record["prompt"] = request_.prompt;
     if (!request_.exemplar.empty()) record["exemplar"] = request_.exemplar.filename().string();
     if (!request_.like.empty()) record["like"] = request_.like.filename().string();
-    record["generator"] = generator_ ? generator_->name() : "materials";
+    record["generator"] = SourceName();
     record["seed"] = variant.seed;
     record["size"] = request_.size;
     record["materials"] = variant.materials;
@@ -229,7 +240,7 @@ class Texturing {
   AssetSurfaces asset_;
   texture::LookWords words_;
   std::shared_ptr<texture::ImageGenerator> generator_;
-  core::Image exemplar_;
+  texture::Swatch swatch_;             // empty without an exemplar
   std::vector<core::Image> pictures_;  // of the asset, then of the variants
   std::vector<texture::MaterialMaps> appearances_;
   std::vector<core::OrderedJson> records_;
