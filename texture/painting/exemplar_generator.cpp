@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kLeastSwatch = 32, kMostSwatch = 512;  // pixels per side
 constexpr int kLeastPatch = 16, kMostPatch = 56;
-constexpr int kCandidates = 260;
+constexpr int kCandidates = 500;
+constexpr int kFeather = 2;         // pixels on both sides of a cut that are mixed
 constexpr double kNearBest = 1.15;  // patches up to this times the least error are drawn from
 
 cv::Mat MatOf(const core::Image& image) {
@@ -50,7 +51,7 @@ class Quilt {
         rng_(core::StreamRng(seed, 41)) {
     const int side = std::min(swatch.cols, swatch.rows);
     patch_ = std::clamp(side / 3, kLeastPatch, kMostPatch);
-    overlap_ = std::max(4, patch_ / 4);
+    overlap_ = std::max(5, patch_ / 3);
   }
 
   cv::Mat Fill() {
@@ -166,11 +167,19 @@ class Quilt {
       for (int x = 0; x < place.width; ++x) {
         std::uint8_t& known = known_.at<std::uint8_t>(place.y + y, place.x + x);
         if (wanted_.at<std::uint8_t>(place.y + y, place.x + x) == 0) continue;
-        const bool behind_cut =
-            x < left[static_cast<std::size_t>(y)] || y < top[static_cast<std::size_t>(x)];
-        if (known != 0 && behind_cut) continue;
-        picture_.at<cv::Vec3b>(place.y + y, place.x + x) =
-            swatch_.at<cv::Vec3b>(source.y + y, source.x + x);
+        cv::Vec3b& color = picture_.at<cv::Vec3b>(place.y + y, place.x + x);
+        const cv::Vec3b& patch = swatch_.at<cv::Vec3b>(source.y + y, source.x + x);
+        // The distance (pixels) past the nearer cut; mixed about it.
+        const int past =
+            std::min(x - left[static_cast<std::size_t>(y)], y - top[static_cast<std::size_t>(x)]);
+        const double share = std::clamp(0.5 + 0.5 * past / kFeather, 0.0, 1.0);
+        if (known == 0) {
+          color = patch;
+        } else {
+          for (int c = 0; c < 3; ++c) {
+            color[c] = cv::saturate_cast<std::uint8_t>(color[c] + share * (patch[c] - color[c]));
+          }
+        }
         known = 255;
       }
     }

@@ -31,6 +31,9 @@ std::vector<int> WeldedVertices(const core::TriangleMesh& mesh) {
   return welded;
 }
 
+constexpr float kInset = 1.0f;     // texels from the edge to the points compared across it
+constexpr float kDistance = 2.0f;  // texels between two points that are compared
+
 // The side of a triangle at an edge: texture coordinates of the edge's ends, in the edge's order,
 // and of the third corner.
 struct EdgeSide {
@@ -45,6 +48,18 @@ struct EdgeSide {
     if (inward.dot(apex - from) < 0.0f) inward = -inward;
     const float length = inward.norm();
     return length > 0.0f ? Eigen::Vector2f(on + inset / length * inward) : on;
+  }
+
+  bool Contains(const Eigen::Vector2f& p) const {
+    const Eigen::Vector2f corners[3] = {from, to, apex};
+    int left = 0, right = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector2f a = corners[k], ab = corners[(k + 1) % 3] - a, ap = p - a;
+      const float side = ab.x() * ap.y() - ab.y() * ap.x();
+      left += side >= 0.0f;
+      right += side <= 0.0f;
+    }
+    return left == 3 || right == 3;
   }
 };
 
@@ -99,12 +114,16 @@ BorderSteps StepsAtBorders(const core::TexturedMesh& mesh, double largest_turn) 
     const int samples = std::clamp(static_cast<int>(length / texel / 2.0f), 1, 64);
     for (int s = 0; s < samples; ++s) {
       const float t = (static_cast<float>(s) + 0.5f) / static_cast<float>(samples);
-      steps.across.push_back(
-          ColorStep(texture, sides[0].At(t, 0.5f * texel), sides[1].At(t, 0.5f * texel)));
+      const float inset = kInset * texel, far = (kInset + kDistance) * texel;
+      bool has_beside = false;
       for (const EdgeSide& side : sides) {
-        steps.beside.push_back(
-            ColorStep(texture, side.At(t, 0.5f * texel), side.At(t, 1.5f * texel)));
+        const Eigen::Vector2f beyond = side.At(t, far);
+        if (!side.Contains(beyond)) continue;
+        steps.beside.push_back(ColorStep(texture, side.At(t, inset), beyond));
+        has_beside = true;
       }
+      if (!has_beside) continue;  // the triangles are too narrow to compare with
+      steps.across.push_back(ColorStep(texture, sides[0].At(t, inset), sides[1].At(t, inset)));
     }
   }
   return steps;

@@ -4,7 +4,7 @@
 
 namespace simwright::texture {
 
-// The colour steps of a texture over the width of one texel, RMS over the channels, in [0, 1].
+// The colour steps of a texture over a distance of two texels, RMS over the channels, in [0, 1].
 struct SeamSteps {
   int seam_samples = 0;
   double seam_mean = 0.0, seam_p95 = 0.0;      // across the borders of charts
@@ -15,10 +15,11 @@ struct SeamSteps {
   double Ratio() const;
 };
 
-// Measures the steps where two triangles meet at an edge of the surface but not of the atlas, half
-// a texel from the edge on both sides, and beside it, from half a texel to one and a half. Edges at
-// which the surface turns by more than `largest_turn` (rad) are left out: a print may end there.
-// Vertices at one place are one. The mesh has one texture, its first.
+// Measures the steps where two triangles meet at an edge of the surface but not of the atlas, from
+// a texel before the edge to a texel behind it, and beside it, from one texel to three, if these
+// are in the triangle: so far apart, no texel takes part in both bilinear lookups. Edges at which
+// the surface turns by more than `largest_turn` (rad) are left out: a print may end there. Vertices
+// at one place are one. The mesh has one texture, its first.
 SeamSteps MeasureSeamSteps(const core::TexturedMesh& mesh, double largest_turn);
 
 }  // namespace simwright::texture

@@ -35,6 +35,8 @@ bool IsWood(const std::string& name) {
 
 // What names in files stand for, beside materials.
 std::string MaterialOfRole(const std::string& name, const LookSlot& slot) {
+  // The prints of a wooden toy are its paint.
+  if (name == "print" && slot.substance == "wood") return "toy paint";
   static const struct {
     const char* role;
     const char* material;
@@ -57,7 +59,7 @@ std::string MaterialOfRole(const std::string& name, const LookSlot& slot) {
     if (name == row.role) return row.material;
   }
   if (name == "board") return slot.substance == "wood" ? "wood" : "cardboard";
-  if (name == "enamel") return slot.substance == "appliance" ? "appliance" : "enamel";
+  if (name == "enamel") return "appliance";
   if (name == "moulding") return "paint";
   if (name == "lid" && !IsOneOf(slot.substance, {"ceramic", "porcelain", "bamboo", "wood"})) {
     return "plastic";

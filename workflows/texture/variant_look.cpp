@@ -29,6 +29,17 @@ std::uint64_t NameHash(const std::string& name) {
   return hash >> 8;
 }
 
+// Surfaces of one family are made of one material: those of one name, and mouldings and switches of
+// what they sit on.
+std::string FamilyOf(const LookSlot& slot) {
+  if (slot.material.empty()) return slot.substance;
+  std::string family;
+  for (const std::string& word : WordsIn(slot.material)) {
+    if (word != "moulding" && word != "switch") family += (family.empty() ? "" : " ") + word;
+  }
+  return family.empty() ? slot.material : family;
+}
+
 // Words that name a part of the asset but no material or colour.
 std::vector<std::string> PartWords(const AssetSurfaces& asset) {
   std::set<std::string> words;
@@ -128,11 +139,11 @@ class LookMaker {
   void MakeSlot(std::size_t s) {
     const LookSlot& slot = asset_.slots[s];
     // Equal names draw equal numbers, so that door and body are of one wood.
-    core::Rng rng = core::StreamRng(seed_, NameHash(slot.material + "/" + slot.substance));
+    const std::string key = FamilyOf(slot);
+    core::Rng rng = core::StreamRng(seed_, NameHash(key));
     const std::string name = MaterialByRule(slot, asset_.category, &rng);
     // Seeds one after the other go through the colours in turn.
-    texture::SurfaceMaterial material =
-        texture::NamedMaterial(name, &rng, seed_ + NameHash(slot.material));
+    texture::SurfaceMaterial material = texture::NamedMaterial(name, &rng, seed_ + NameHash(key));
     const texture::PartFrame& frame = FrameOf(s);
     const float side = frame.box.isEmpty() ? 0.1f : frame.box.sizes().maxCoeff();
     material.pattern_size = std::clamp(0.09f * side, 0.006f, 0.12f);
