@@ -117,7 +117,7 @@ Surface MeasureSurface(const fs::path& folder) {
 }
 
 double Ratio(double seam, double inside, double samples) {
-  return samples > 0.0 ? seam / std::max(inside, samples * 0.5 / 255.0) : 0.0;
+  return samples > 0.0 ? seam / std::max(inside, samples / 255.0) : 0.0;
 }
 
 // The kinds that an asset may be taken for.

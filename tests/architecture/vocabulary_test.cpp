@@ -19,7 +19,8 @@ const std::vector<std::string> kModules = {
     "robot",       "sim",         "asset_build", "tasks",
     "scene",       "validation",  "importers",   "manipulation",
     "skills",      "workflows",   "cli",         "capture",
-    "library_fit", "certificate", "viewer",      "python"};
+    "library_fit", "certificate", "viewer",      "asset_looks",
+    "python"};
 
 struct Line {
   std::string place, text;

@@ -9,7 +9,7 @@
 
 namespace simwright::texture {
 
-// What words say of one part of an object.
+// The look that words give to one part of an object.
 struct LookClause {
   std::string target;                   // "handle", "inside", "rim"; empty: the object itself
   std::string material;                 // a name of NamedMaterial, or empty

@@ -11,7 +11,7 @@
 namespace simwright::texture {
 namespace {
 
-constexpr double kHalfGrey = 0.5 / 255.0;
+constexpr double kOneGrey = 1.0 / 255.0;
 
 float ColorStep(const core::Image& texture, const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
   const Eigen::Vector4f step = core::SampleTexture(texture, a) - core::SampleTexture(texture, b);
@@ -91,9 +91,9 @@ std::map<std::pair<int, int>, std::vector<EdgeSide>> EdgesOf(const core::Texture
   return edges;
 }
 
-// The steps across the borders and beside them.
+// The steps across the borders, away from them and along them.
 struct BorderSteps {
-  std::vector<float> across, beside;
+  std::vector<float> across, beside, along;
 };
 
 BorderSteps StepsAtBorders(const core::TexturedMesh& mesh, double largest_turn) {
@@ -120,6 +120,11 @@ BorderSteps StepsAtBorders(const core::TexturedMesh& mesh, double largest_turn) 
         const Eigen::Vector2f beyond = side.At(t, far);
         if (!side.Contains(beyond)) continue;
         steps.beside.push_back(ColorStep(texture, side.At(t, inset), beyond));
+        const Eigen::Vector2f along = kDistance * texel * (side.to - side.from).normalized();
+        const Eigen::Vector2f further = side.At(t, inset) + along;
+        if (side.Contains(further)) {
+          steps.along.push_back(ColorStep(texture, side.At(t, inset), further));
+        }
         has_beside = true;
       }
       if (!has_beside) continue;  // the triangles are too narrow to compare with
@@ -132,7 +137,7 @@ BorderSteps StepsAtBorders(const core::TexturedMesh& mesh, double largest_turn) 
 }  // namespace
 
 double SeamSteps::Ratio() const {
-  return seam_samples == 0 ? 0.0 : seam_mean / std::max(inside_mean, kHalfGrey);
+  return seam_samples == 0 ? 0.0 : seam_mean / std::max(inside_mean, kOneGrey);
 }
 
 SeamSteps MeasureSeamSteps(const core::TexturedMesh& mesh, double largest_turn) {
@@ -143,8 +148,14 @@ SeamSteps MeasureSeamSteps(const core::TexturedMesh& mesh, double largest_turn) 
   const BorderSteps borders = StepsAtBorders(mesh, largest_turn);
   SeamSteps steps;
   Summarise(borders.across, &steps.seam_samples, &steps.seam_mean, &steps.seam_p95);
-  int beside = 0;
-  Summarise(borders.beside, &beside, &steps.inside_mean, &steps.inside_p95);
+  for (const std::vector<float>* inside : {&borders.beside, &borders.along}) {
+    int count = 0;
+    double mean = 0.0, p95 = 0.0;
+    Summarise(*inside, &count, &mean, &p95);
+    if (mean < steps.inside_mean) continue;
+    steps.inside_mean = mean;
+    steps.inside_p95 = p95;
+  }
   return steps;
 }
 

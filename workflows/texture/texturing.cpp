@@ -4,6 +4,11 @@
 #include <cstdio>
 #include <utility>
 
+#include "asset_looks/asset_surfaces.h"
+#include "asset_looks/exemplar_source.h"
+#include "asset_looks/variant_look.h"
+#include "asset_looks/variant_writing.h"
+#include "assets/asset_folder.h"
 #include "core/elapsed_time.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -11,10 +16,6 @@
 #include "texture/materials/material_bake.h"
 #include "texture/painting/exemplar_bake.h"
 #include "texture/painting/painting.h"
-#include "workflows/texture/asset_surfaces.h"
-#include "workflows/texture/exemplar_source.h"
-#include "workflows/texture/variant_look.h"
-#include "workflows/texture/variant_writing.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
@@ -30,7 +31,7 @@ std::string VariantName(const std::string& asset, int index) {
 }
 
 // The length of the asset's longest side, m.
-double LengthOf(const AssetSurfaces& asset) {
+double LengthOf(const asset_looks::AssetSurfaces& asset) {
   if (asset.rigid) return core::Bounds(asset.rigid->visual.mesh).sizes().maxCoeff();
   return assets::BoundsAtZero(*asset.articulated).sizes().maxCoeff();
 }
@@ -42,15 +43,15 @@ class Texturing {
 
   TextureReport Run() {
     const core::SteadyTime start = core::Now();
-    asset_ = ReadAssetSurfaces(request_.asset, request_.size);
+    asset_ = asset_looks::ReadAssetSurfaces(request_.asset, request_.size);
     report_.asset = asset_.name;
     report_.findings = asset_.findings;
-    for (const TexturedSurface& surface : asset_.surfaces) {
+    for (const asset_looks::TexturedSurface& surface : asset_.surfaces) {
       for (const std::uint8_t inside : surface.map.inside) report_.texels += inside;
     }
     ReadSources();
     RequireFreeOutput();
-    const core::Image original = ViewOf(asset_);
+    const core::Image original = asset_looks::ViewOf(asset_);
     report_.preparation = core::SecondsSince(start);
     pictures_ = {original};
     // A generator's painting shows the progress of its views.
@@ -70,12 +71,13 @@ class Texturing {
   void ReadSources() {
     generator_ = request_.generator;
     if (!request_.prompt.empty() && !generator_) {
-      words_ = ReadAssetWords(request_.prompt, asset_, &report_.findings);
+      words_ = asset_looks::ReadAssetWords(request_.prompt, asset_, &report_.findings);
     }
     if (request_.exemplar.empty() && request_.like.empty()) return;
-    swatch_ = request_.like.empty()
-                  ? SwatchFromPhoto(request_.exemplar, LengthOf(asset_), &report_.findings)
-                  : SwatchFromAsset(request_.like, &report_.findings);
+    swatch_ =
+        request_.like.empty()
+            ? asset_looks::SwatchFromPhoto(request_.exemplar, LengthOf(asset_), &report_.findings)
+            : asset_looks::SwatchFromAsset(request_.like, &report_.findings);
   }
 
   std::vector<fs::path> Folders() const {
@@ -110,17 +112,18 @@ class Texturing {
     const core::SteadyTime start = core::Now();
     TextureVariant variant;
     variant.seed = request_.seed + static_cast<std::uint64_t>(index);
-    const VariantLook look = MakeVariantLook(asset_, words_, variant.seed);
+    const asset_looks::VariantLook look =
+        asset_looks::MakeVariantLook(asset_, words_, variant.seed);
     std::vector<texture::MaterialMaps> maps;
     double unseen = 0.0;
     for (std::size_t s = 0; s < asset_.surfaces.size(); ++s) {
-      const TexturedSurface& surface = asset_.surfaces[s];
+      const asset_looks::TexturedSurface& surface = asset_.surfaces[s];
       if (surface.mesh.mesh.empty()) {
         maps.emplace_back();
         continue;
       }
       maps.push_back(texture::BakeMaterials(surface.mesh.mesh, surface.mesh.corner_uvs, surface.map,
-                                            PlanOf(surface, look)));
+                                            asset_looks::PlanOf(surface, look)));
       unseen += Paint(surface, look, variant.seed, &maps.back());
     }
     variant.unseen_share = unseen / static_cast<double>(std::max(1, report_.texels));
@@ -145,8 +148,8 @@ class Texturing {
 
   // Gives the main surfaces the colours of the exemplar, or of the generator where there is one;
   // returns the number of texels that no view saw.
-  double Paint(const TexturedSurface& surface, const VariantLook& look, std::uint64_t seed,
-               texture::MaterialMaps* maps) {
+  double Paint(const asset_looks::TexturedSurface& surface, const asset_looks::VariantLook& look,
+               std::uint64_t seed, texture::MaterialMaps* maps) {
     bool any_main = false;
     for (const int slot : surface.triangle_slot) any_main |= look.is_main[slot];
     if (!any_main || (!generator_ && swatch_.picture.empty())) return 0.0;
@@ -176,7 +179,7 @@ class Texturing {
     return unseen_share * inside;
   }
 
-  // What the main surfaces are coloured by.
+  // Returns what colours the main surfaces.
   std::string SourceName() const {
     if (generator_) return generator_->name();
     return swatch_.picture.empty() ? "materials" : "exemplar";
@@ -199,8 +202,8 @@ class Texturing {
     variant->name = VariantName(asset_.name, index);
     variant->folder = request_.output / variant->name;
     core::StagedFolder staged(variant->folder, request_.force);
-    pictures_.push_back(WriteVariant(asset_, maps, variant->name, RecordOf(*variant),
-                                     request_.asset, staged.staging()));
+    pictures_.push_back(asset_looks::WriteVariant(asset_, maps, variant->name, RecordOf(*variant),
+                                                  request_.asset, staged.staging()));
     assets::AddFindings(staged.staging(), report_.findings);
     staged.Commit();
   }
@@ -208,18 +211,18 @@ class Texturing {
   void Keep(std::vector<texture::MaterialMaps> maps, TextureVariant* variant) {
     variant->name = asset_.name;
     variant->folder = request_.output / asset_.name;
-    AssetSurfaces shown = asset_;
-    shown.rigid = TexturedRigid(asset_, maps.front(), asset_.name);
-    pictures_.push_back(ViewOf(shown));
+    asset_looks::AssetSurfaces shown = asset_;
+    shown.rigid = asset_looks::TexturedRigid(asset_, maps.front(), asset_.name);
+    pictures_.push_back(asset_looks::ViewOf(shown));
     records_.push_back(RecordOf(*variant));
     appearances_.push_back(std::move(maps.front()));
   }
 
   void WriteAll() {
     core::StagedFolder staged(request_.output / asset_.name, request_.force);
-    WriteVariant(asset_, {appearances_.front()}, asset_.name, records_.front(), request_.asset,
-                 staged.staging());
-    WriteAppearances(appearances_, records_, staged.staging());
+    asset_looks::WriteVariant(asset_, {appearances_.front()}, asset_.name, records_.front(),
+                              request_.asset, staged.staging());
+    asset_looks::WriteAppearances(appearances_, records_, staged.staging());
     assets::AddFindings(staged.staging(), report_.findings);
     staged.Commit();
   }
@@ -237,7 +240,7 @@ class Texturing {
 
   const TextureRequest& request_;
   core::Progress* progress_;
-  AssetSurfaces asset_;
+  asset_looks::AssetSurfaces asset_;
   texture::LookWords words_;
   std::shared_ptr<texture::ImageGenerator> generator_;
   texture::Swatch swatch_;             // empty without an exemplar

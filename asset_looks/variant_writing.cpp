@@ -1,4 +1,4 @@
-#include "workflows/texture/variant_writing.h"
+#include "asset_looks/variant_writing.h"
 
 #include <cstdio>
 #include <set>
@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "core/files.h"
 
-namespace simwright::workflows {
+namespace simwright::asset_looks {
 namespace fs = std::filesystem;
 namespace {
 
@@ -142,4 +142,4 @@ core::Image ViewOf(const AssetSurfaces& asset) {
   return asset_build::ArticulatedView(*asset.articulated, 0.3, kViewSize);
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::asset_looks

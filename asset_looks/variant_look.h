@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "asset_looks/asset_surfaces.h"
 #include "core/finding.h"
 #include "texture/materials/look_words.h"
 #include "texture/materials/material_bake.h"
-#include "workflows/texture/asset_surfaces.h"
 
-namespace simwright::workflows {
+namespace simwright::asset_looks {
 
 // The materials of one variant of an asset.
 struct VariantLook {
@@ -32,4 +32,4 @@ VariantLook MakeVariantLook(const AssetSurfaces& asset, const texture::LookWords
 // Returns the plan for one of the asset's surfaces.
 texture::MaterialPlan PlanOf(const TexturedSurface& surface, const VariantLook& look);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::asset_looks

@@ -1,4 +1,4 @@
-#include "workflows/texture/asset_surfaces.h"
+#include "asset_looks/asset_surfaces.h"
 
 #include <algorithm>
 #include <bit>
@@ -12,13 +12,13 @@
 #include "core/parallel.h"
 #include "texture/uv_atlas.h"
 
-namespace simwright::workflows {
+namespace simwright::asset_looks {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr int kLeastLinkSize = 128, kLargestAtlas = 4096;
 
-// Where slots are collected; equal ones are kept once.
+// Collects slots; equal ones are kept once.
 class SlotList {
  public:
   explicit SlotList(std::vector<LookSlot>* slots) : slots_(slots) {}
@@ -170,4 +170,4 @@ AssetSurfaces ReadAssetSurfaces(const fs::path& folder, int size) {
   return result;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::asset_looks

@@ -5,7 +5,7 @@
 #include "core/finding.h"
 #include "texture/painting/exemplar_generator.h"
 
-namespace simwright::workflows {
+namespace simwright::asset_looks {
 
 // Returns a swatch of the material in a photo: the largest square inside the object that stands out
 // from the background, or inside the whole picture where none does, without its shading. An object
@@ -18,4 +18,4 @@ texture::Swatch SwatchFromPhoto(const std::filesystem::path& photo, double objec
 // sides. Throws core::Error if the folder holds no asset.
 texture::Swatch SwatchFromAsset(const std::filesystem::path& folder, core::Findings* findings);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::asset_looks

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "asset_looks/asset_surfaces.h"
 #include "core/json.h"
 #include "texture/materials/material_bake.h"
-#include "workflows/texture/asset_surfaces.h"
 
-namespace simwright::workflows {
+namespace simwright::asset_looks {
 
 // Returns the asset with the maps of one variant as its textures: one material per visual mesh.
 assets::Asset TexturedRigid(const AssetSurfaces& asset, const texture::MaterialMaps& maps,
@@ -34,4 +34,4 @@ void WriteAppearances(const std::vector<texture::MaterialMaps>& appearances,
 // Returns a view of the asset as it is, of the size of WriteVariant's.
 core::Image ViewOf(const AssetSurfaces& asset);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::asset_looks

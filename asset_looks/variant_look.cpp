@@ -1,4 +1,4 @@
-#include "workflows/texture/variant_look.h"
+#include "asset_looks/variant_look.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "texture/materials/named_materials.h"
 #include "texture/materials/print_design.h"
 
-namespace simwright::workflows {
+namespace simwright::asset_looks {
 namespace {
 
 std::vector<std::string> WordsIn(const std::string& text) {
@@ -334,4 +334,4 @@ texture::MaterialPlan PlanOf(const TexturedSurface& surface, const VariantLook& 
   return plan;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::asset_looks

@@ -1,4 +1,4 @@
-#include "workflows/texture/look_rules.h"
+#include "asset_looks/look_rules.h"
 
 #include <algorithm>
 #include <cctype>
@@ -7,7 +7,7 @@
 
 #include "texture/materials/named_materials.h"
 
-namespace simwright::workflows {
+namespace simwright::asset_looks {
 namespace {
 
 bool IsOneOf(const std::string& word, std::initializer_list<const char*> words) {
@@ -33,7 +33,7 @@ bool IsWood(const std::string& name) {
                         "acacia", "teak", "mahogany", "plywood", "veneer"});
 }
 
-// What names in files stand for, beside materials.
+// Returns what a name in a file stands for, beside materials.
 std::string MaterialOfRole(const std::string& name, const LookSlot& slot) {
   // The prints of a wooden toy are its paint.
   if (name == "print" && slot.substance == "wood") return "toy paint";
@@ -166,4 +166,4 @@ std::string PrintTitle(const std::string& category, core::Rng* rng) {
   return kBrands[core::UniformIndex(*rng, static_cast<std::int64_t>(std::size(kBrands)))];
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::asset_looks

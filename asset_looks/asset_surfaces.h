@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "asset_looks/look_rules.h"
 #include "assets/articulated_asset.h"
 #include "assets/asset.h"
 #include "core/finding.h"
 #include "core/mesh.h"
 #include "texture/materials/material_bake.h"
 #include "texture/painting/texel_map.h"
-#include "workflows/texture/look_rules.h"
 
-namespace simwright::workflows {
+namespace simwright::asset_looks {
 
 // One visual mesh ready to be textured: with texture coordinates of its own.
 struct TexturedSurface {
@@ -41,4 +41,4 @@ struct AssetSurfaces {
 // size, at least 128. Throws core::Error if the folder holds no asset.
 AssetSurfaces ReadAssetSurfaces(const std::filesystem::path& folder, int size);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::asset_looks

@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "texture/materials/surface_material.h"
 
-namespace simwright::workflows {
+namespace simwright::asset_looks {
 
 // A kind of surface on an asset: all triangles of one material on parts of one role.
 struct LookSlot {
@@ -34,4 +34,4 @@ std::string MaterialByRule(const LookSlot& slot, const std::string& category, co
 // brand where the category says nothing.
 std::string PrintTitle(const std::string& category, core::Rng* rng);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::asset_looks

@@ -1,4 +1,4 @@
-#include "workflows/texture/exemplar_source.h"
+#include "asset_looks/exemplar_source.h"
 
 #include <algorithm>
 #include <optional>
@@ -12,7 +12,7 @@
 #include "core/image.h"
 #include "render/forward.h"
 
-namespace simwright::workflows {
+namespace simwright::asset_looks {
 namespace fs = std::filesystem;
 namespace {
 
@@ -115,4 +115,4 @@ texture::Swatch SwatchFromAsset(const fs::path& folder, core::Findings* findings
   return best;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::asset_looks
