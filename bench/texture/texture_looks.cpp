@@ -245,7 +245,9 @@ class Bench {
     }
     const std::vector<int> kinds = TrueKinds(asset);
     if (kinds.empty()) return;
-    const int before = RankOf(prior_, WholeOf(asset), kinds);
+    if (asset != ranked_asset_) rank_before_ = RankOf(prior_, WholeOf(asset), kinds);
+    ranked_asset_ = asset;
+    const int before = rank_before_;
     const int after = RankOf(prior_, WholeOf(variant.folder), kinds);
     row->before = std::max(row->before, before);
     row->after = std::max(row->after, after);
@@ -273,6 +275,8 @@ class Bench {
 
   const Settings& settings_;
   library_fit::LibraryPrior prior_;
+  fs::path ranked_asset_;  // the asset of the rank below
+  int rank_before_ = 0;
   Totals by_rule_, by_prompt_, by_exemplar_;
 };
 

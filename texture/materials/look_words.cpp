@@ -256,6 +256,13 @@ class Reader {
   bool is_closed_ = false;  // the last clause ended with the part it is about
 };
 
+// Returns a colour that goes by the same name: a little lighter or darker, warmer or cooler.
+Eigen::Vector3f SameName(const Eigen::Vector3f& color, core::Rng* rng) {
+  const float light = static_cast<float>(core::Uniform(*rng, 0.88, 1.12));
+  const float warm = static_cast<float>(core::Uniform(*rng, -0.025, 0.025));
+  return (light * color + Eigen::Vector3f(warm, 0.0f, -warm)).cwiseMax(0.0f).cwiseMin(0.97f);
+}
+
 void SetMetalFinish(const LookClause& clause, SurfaceMaterial* material) {
   if (!material->IsMetal()) return;
   if (clause.brushed) {
@@ -297,7 +304,7 @@ SurfaceMaterial WithWords(const LookClause& clause, const SurfaceMaterial& base,
   }
   SetMetalFinish(clause, &material);
   if (!clause.colors.empty()) {
-    SetColor(clause.colors.front(), &material);
+    SetColor(SameName(clause.colors.front(), rng), &material);
     material.pattern_color = Mix(clause.colors.front(), Eigen::Vector3f::Ones(), 0.75f);
   } else if (clause.pattern) {
     material.pattern_color = material.color.mean() > 0.6f ? Eigen::Vector3f(0.16f, 0.30f, 0.52f)

@@ -36,7 +36,8 @@ struct LookWords {
 LookWords ReadLookWords(const std::string& prompt, const std::vector<std::string>& targets,
                         const std::vector<std::string>& ignored);
 
-// Returns `base` as a clause changes it; a material that the clause names replaces it.
+// Returns `base` as a clause changes it; a material that the clause names replaces it. The
+// generator draws what the words leave open, and which blue a blue is.
 SurfaceMaterial WithWords(const LookClause& clause, const SurfaceMaterial& base, core::Rng* rng);
 
 }  // namespace simwright::texture
