@@ -43,6 +43,7 @@ void AddMat(CLI::App* app, CommonOptions* common, Run* run);
 void AddImport(CLI::App* app, CommonOptions* common, Run* run);
 void AddPhysics(CLI::App* app, CommonOptions* common, Run* run);
 void AddGrasps(CLI::App* app, CommonOptions* common, Run* run);
+void AddTexture(CLI::App* app, CommonOptions* common, Run* run);
 void AddCheck(CLI::App* app, CommonOptions* common, Run* run);
 void AddLibrary(CLI::App* app, CommonOptions* common, Run* run);
 void AddPropose(CLI::App* app, CommonOptions* common, Run* run);

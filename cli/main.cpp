@@ -49,6 +49,7 @@ int Main(int argc, char** argv) {
   cli::AddPhysics(&app, &common, &run);
   cli::AddCheck(&app, &common, &run);
   cli::AddGrasps(&app, &common, &run);
+  cli::AddTexture(&app, &common, &run);
   cli::AddLibrary(&app, &common, &run);
   cli::AddPropose(&app, &common, &run);
   cli::AddPrior(&app, &common, &run);

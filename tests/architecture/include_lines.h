@@ -11,14 +11,14 @@ namespace simwright {
 
 // The modules and their floors (docs/architecture.md).
 inline const std::map<std::string, int> kFloor = {
-    {"core", 0},     {"geometry", 1},    {"nn", 1},           {"render", 1},
-    {"llm", 1},      {"reward", 1},      {"texture", 2},      {"physics_params", 2},
-    {"rl", 2},       {"asset_lift", 3},  {"assets", 3},       {"library", 4},
-    {"capture", 4},  {"library_fit", 5}, {"robot", 4},        {"sim", 5},
-    {"tasks", 6},    {"asset_build", 6},  {"twin", 6}, {"scene", 6},        {"validation", 7},
-    {"skills", 8},   {"importers", 7},   {"manipulation", 7}, {"workflows", 9},
-    {"steering", 7}, {"certificate", 8}, {"viewer", 10},      {"cli", 11},
-    {"python", 11},  {"proposals", 4}};
+    {"core", 0},         {"geometry", 1},   {"nn", 1},          {"render", 1},
+    {"llm", 1},          {"reward", 1},     {"texture", 2},     {"physics_params", 2},
+    {"rl", 2},           {"asset_lift", 3}, {"assets", 3},      {"library", 4},
+    {"asset_looks", 7},  {"capture", 4},    {"library_fit", 5}, {"robot", 4},
+    {"sim", 5},          {"tasks", 6},      {"asset_build", 6}, {"twin", 6},
+    {"scene", 6},        {"validation", 7}, {"skills", 8},      {"importers", 7},
+    {"manipulation", 7}, {"workflows", 9},  {"steering", 7},    {"certificate", 8},
+    {"viewer", 10},      {"cli", 11},       {"python", 11},     {"proposals", 4}};
 
 // An include line of a module.
 struct Include {

@@ -19,8 +19,8 @@ const std::vector<std::string> kModules = {
     "robot",       "sim",         "asset_build", "tasks",
     "scene",       "validation",  "importers",   "manipulation",
     "skills",      "workflows",   "cli",         "capture",
-    "library_fit", "certificate", "viewer",      "python",
-    "proposals"};
+    "library_fit", "certificate", "viewer",      "asset_looks",
+    "python",      "proposals",   "twin"};
 
 struct Line {
   std::string place, text;

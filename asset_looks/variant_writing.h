@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "asset_looks/asset_surfaces.h"
+#include "core/json.h"
+#include "texture/materials/material_bake.h"
+
+namespace simwright::asset_looks {
+
+// Returns the asset with the maps of one variant as its textures: one material per visual mesh.
+assets::Asset TexturedRigid(const AssetSurfaces& asset, const texture::MaterialMaps& maps,
+                            const std::string& name);
+assets::ArticulatedAsset TexturedArticulated(const AssetSurfaces& asset,
+                                             const std::vector<texture::MaterialMaps>& maps,
+                                             const std::string& name);
+
+// Writes a variant into the existing `folder`: all files of the asset, with the maps as its look
+// and `record` as "texture" in asset.json. Other files of `source` and other members of its
+// asset.json are copied. Geometry, mass and collision parts are those of the asset. Returns a view
+// of it.
+core::Image WriteVariant(const AssetSurfaces& asset, const std::vector<texture::MaterialMaps>& maps,
+                         const std::string& name, const core::OrderedJson& record,
+                         const std::filesystem::path& source, const std::filesystem::path& folder);
+
+// Adds the maps of further variants to a written folder of a rigid asset: appearance_NNN_*.png, and
+// "appearances" in asset.json, whose first entry is the asset's own look.
+void WriteAppearances(const std::vector<texture::MaterialMaps>& appearances,
+                      const std::vector<core::OrderedJson>& records,
+                      const std::filesystem::path& folder);
+
+// Returns a view of the asset as it is, of the size of WriteVariant's.
+core::Image ViewOf(const AssetSurfaces& asset);
+
+}  // namespace simwright::asset_looks
