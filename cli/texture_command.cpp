@@ -4,13 +4,23 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "cli/image_generator_options.h"
 #include "core/finding.h"
 #include "workflows/texture/texturing.h"
 
 namespace simwright::cli {
 namespace {
 
-int Texture(workflows::TextureRequest request, const CommonOptions& common) {
+struct TextureFlags {
+  workflows::TextureRequest request;
+  ImageGeneratorFlags generator;
+  std::string as = "folders";
+};
+
+int Texture(const TextureFlags& flags, const CommonOptions& common) {
+  workflows::TextureRequest request = flags.request;
+  request.as_materials = flags.as == "materials";
+  if (flags.generator.given()) request.generator = MakeFlaggedGenerator(flags.generator, common);
   request.seed = common.seed;
   request.force = common.force;
   core::Progress progress(common.ProgressStyle());
@@ -27,7 +37,8 @@ int Texture(workflows::TextureRequest request, const CommonOptions& common) {
 }  // namespace
 
 void AddTexture(CLI::App* app, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<workflows::TextureRequest>();
+  auto flags = std::make_shared<TextureFlags>();
+  workflows::TextureRequest* request = &flags->request;
   CLI::App* command = app->add_subcommand(
       "texture", "Give an asset new textures: by words, from a photo or from another asset");
   command->footer(
@@ -57,23 +68,18 @@ void AddTexture(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("--size", request->size, "Texels per side of the texture")
       ->check(CLI::Range(64, 4096))
       ->capture_default_str();
-  auto as = std::make_shared<std::string>("folders");
   command
-      ->add_option("--as", *as,
+      ->add_option("--as", flags->as,
                    "folders: an asset per variant; materials: one rigid asset with the maps of all "
                    "variants (\"appearances\" in asset.json)")
       ->check(CLI::IsMember({"folders", "materials"}))
       ->capture_default_str();
+  AddImageGenerator(command, &flags->generator);
   command->add_option("-o,--output", request->output, "The folder for the variants")
       ->capture_default_str();
   AddForce(command, common);
   AddCommon(command, common);
-  command->callback([=] {
-    *run = [=] {
-      request->as_materials = *as == "materials";
-      return Texture(*request, *common);
-    };
-  });
+  command->callback([flags, common, run] { *run = [=] { return Texture(*flags, *common); }; });
 }
 
 }  // namespace simwright::cli
