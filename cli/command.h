@@ -48,6 +48,7 @@ void AddCheck(CLI::App* app, CommonOptions* common, Run* run);
 void AddLibrary(CLI::App* app, CommonOptions* common, Run* run);
 void AddPropose(CLI::App* app, CommonOptions* common, Run* run);
 void AddPrior(CLI::App* app, CommonOptions* common, Run* run);
+void AddFactory(CLI::App* app, CommonOptions* common, Run* run);
 void AddTwin(CLI::App* app, CommonOptions* common, Run* run);
 void AddTasks(CLI::App* app, CommonOptions* common, Run* run);
 void AddReward(CLI::App* app, CommonOptions* common, Run* run);

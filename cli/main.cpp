@@ -53,6 +53,7 @@ int Main(int argc, char** argv) {
   cli::AddLibrary(&app, &common, &run);
   cli::AddPropose(&app, &common, &run);
   cli::AddPrior(&app, &common, &run);
+  cli::AddFactory(&app, &common, &run);
   cli::AddTwin(&app, &common, &run);
   cli::AddTasks(&app, &common, &run);
   cli::AddReward(&app, &common, &run);

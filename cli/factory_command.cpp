@@ -1,0 +1,77 @@
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/findings_output.h"
+#include "cli/image_generator_options.h"
+#include "core/error.h"
+#include "workflows/factory/factory.h"
+
+namespace simwright::cli {
+namespace {
+
+struct FactoryFlags {
+  workflows::FactoryRequest request;
+  ImageGeneratorFlags generator;
+};
+
+int Factory(const FactoryFlags& flags, const CommonOptions& common) {
+  workflows::FactoryRequest request = flags.request;
+  request.theme.seed = common.seed;
+  if (flags.generator.given()) request.generator = MakeFlaggedGenerator(flags.generator, common);
+  core::Progress progress(common.ProgressStyle());
+  try {
+    const workflows::FactoryReport report = workflows::RunFactory(request, &progress);
+    if (common.json) {
+      PrintJson(workflows::FactoryJson(report), report.findings);
+    } else {
+      int notes = 0;
+      PrintWarnings(report.findings, common, &notes);
+      if (!common.quiet) std::fputs(workflows::FactoryTable(report).c_str(), stdout);
+      std::printf("%s\n", report.page.c_str());
+    }
+    return report.state.made() > 0 ? 0 : 1;
+  } catch (const core::Cancelled&) {
+    progress.Finish();
+    return ReportStopped(request.output);
+  }
+}
+
+}  // namespace
+
+void AddFactory(CLI::App* app, CommonOptions* common, Run* run) {
+  auto flags = std::make_shared<FactoryFlags>();
+  CLI::App* command =
+      app->add_subcommand("factory", "Make hundreds of assets and tasks from one line");
+  command->footer(
+      "Examples:\n  simwright factory --theme kitchen --assets 200 --tasks 500 -o kitchen\n"
+      "  simwright factory plan.json -o things\n"
+      "  simwright factory --resume -o kitchen\n"
+      "The dashboard is kitchen/index.html. More workers join with --resume, also on other "
+      "machines\n"
+      "that share the folder. See docs/factory.md.");
+  workflows::FactoryRequest& request = flags->request;
+  auto* plan = command->add_option("plan", request.plan, "A plan of sources (docs/factory.md)");
+  plan->default_str("none");
+  command->add_option("--theme", request.theme.theme, "The theme of the library's objects")
+      ->excludes(plan)
+      ->default_str("none");
+  command->add_option("--assets", request.theme.assets, "Number of assets of a theme")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--tasks", request.theme.tasks, "Number of verified tasks of a theme")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  command
+      ->add_option("--variants", request.theme.variants,
+                   "Texture variants of each asset of a theme")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command->add_option("-o,--output", request.output, "The factory's folder")->required();
+  command->add_flag("--resume", request.resume, "Go on with the folder's work, or join it");
+  AddImageGenerator(command, &flags->generator);
+  AddCommon(command, common);
+  command->callback([flags, common, run] { *run = [=] { return Factory(*flags, *common); }; });
+}
+
+}  // namespace simwright::cli
