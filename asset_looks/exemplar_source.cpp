@@ -1,6 +1,7 @@
 #include "asset_looks/exemplar_source.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -16,12 +17,27 @@ namespace simwright::asset_looks {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kPhotoSide = 1400, kSwatchSide = 320, kViewSide = 480;  // pixels
-constexpr double kElevation = 0.35, kViewAngle = 0.6;                 // rad
+constexpr int kPhotoSide = 1400, kSwatchSide = 320, kViewSide = 480;         // pixels
+constexpr double kElevation = 0.25, kTopElevation = 1.45, kViewAngle = 0.6;  // rad
 
 std::string SquareSentence(int side, double scale, const std::string& where) {
   const int taken = static_cast<int>(side / scale);
   return "the exemplar is a square of " + std::to_string(taken) + " pixels " + where;
+}
+
+// Returns the mean cosine between the visible surface and the direction to the camera.
+double MeanFacing(const render::ForwardBuffers& view, const core::Camera& camera) {
+  double sum = 0.0, count = 0.0;
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      const std::size_t at = view.Index(x, y);
+      if (!(view.depth[at] > 0.0f)) continue;
+      const Eigen::Vector3d ray = camera.Ray({x + 0.5, y + 0.5}).normalized();
+      sum += std::abs(ray.dot(view.normal[at].cast<double>()));
+      ++count;
+    }
+  }
+  return count > 0.0 ? sum / count : 0.0;
 }
 
 }  // namespace
@@ -81,23 +97,25 @@ texture::Swatch SwatchFromAsset(const fs::path& folder, core::Findings* findings
   options.lit = false;
   options.samples_per_side = 3;
   texture::Swatch best;
-  double best_size = 0.0, scale = 1.0;
-  int best_side = 0;
-  for (int side = 0; side < 4; ++side) {
+  double best_score = 0.0, taken = 0.0;
+  for (int side = 0; side < 5; ++side) {
     const core::Camera camera =
-        core::OrbitCamera(box.center(), distance, kElevation, M_PI + 0.5 * M_PI * side, kViewAngle,
-                          kViewSide, kViewSide);
-    const core::Image view = render::RenderForward(scene, camera, options).color;
+        core::OrbitCamera(box.center(), distance, side < 4 ? kElevation : kTopElevation,
+                          M_PI + 0.5 * M_PI * (side % 4), kViewAngle, kViewSide, kViewSide);
+    const render::ForwardBuffers view = render::RenderForward(scene, camera, options);
     core::Image mask(view.width, view.height, 1);
     for (int y = 0; y < view.height; ++y) {
-      for (int x = 0; x < view.width; ++x) *mask.At(x, y) = view.At(x, y)[3];
+      for (int x = 0; x < view.width; ++x) *mask.At(x, y) = view.color.At(x, y)[3];
     }
     try {
-      const core::Image square = texture::LargestSwatch(view, mask, kSwatchSide, &scale);
-      const double size = square.width / scale;
-      if (size <= best_size) continue;
-      best_size = size;
-      best_side = square.width;
+      double scale = 1.0;
+      const core::Image square = texture::LargestSwatch(view.color, mask, kSwatchSide, &scale);
+      // Patterns of surfaces that the camera does not face are squeezed.
+      const double facing = MeanFacing(view, camera);
+      const double score = square.width / scale * facing * facing;
+      if (score <= best_score) continue;
+      best_score = score;
+      taken = square.width / scale;
       best.picture = square;
       best.pixel_size = distance / camera.fx / scale;
     } catch (const core::Error&) {
@@ -109,9 +127,9 @@ texture::Swatch SwatchFromAsset(const fs::path& folder, core::Findings* findings
                       "give another asset or a photo of the material");
   }
   findings->push_back({"texture-exemplar", core::Severity::kInfo, folder.filename().string(),
-                       SquareSentence(best_side, best_side / best_size,
+                       SquareSentence(best.picture.width, best.picture.width / taken,
                                       "of a rendering of the asset, in its true size"),
-                       best.pixel_size * best_side});
+                       best.pixel_size * best.picture.width});
   return best;
 }
 

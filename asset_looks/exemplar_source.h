@@ -15,7 +15,8 @@ texture::Swatch SwatchFromPhoto(const std::filesystem::path& photo, double objec
                                 core::Findings* findings);
 
 // Returns a swatch of another asset's surface in its true size: the largest square of the four
-// sides. Throws core::Error if the folder holds no asset.
+// sides and the top, preferring sides that face the camera. Throws core::Error if the folder holds
+// no asset.
 texture::Swatch SwatchFromAsset(const std::filesystem::path& folder, core::Findings* findings);
 
 }  // namespace simwright::asset_looks

@@ -54,7 +54,9 @@ std::string MaterialOfRole(const std::string& name, const LookSlot& slot) {
                 {"core", "cardboard"},      {"crust", "bread"},
                 {"shell", "egg"},           {"ripe", "avocado"},
                 {"tea", "brown glass"},     {"seat", "upholstery"},
-                {"cushion", "upholstery"},  {"mirror", "chrome"}};
+                {"cushion", "upholstery"},  {"mirror", "chrome"},
+                {"coffee", "chocolate"},    {"leaf", "plant"},
+                {"leaves", "plant"}};
   for (const auto& row : kRoles) {
     if (name == row.role) return row.material;
   }

@@ -1,7 +1,7 @@
 // Measures the textures of `simwright texture` on assets: whether borders of charts show, whether a
 // texel is left without a texture, how far variants differ, and whether the library's classifier
 // still knows the objects.
-//   bench_texture_looks OUT [--exemplar PICTURE] [--size N] [--variants N] ASSET...
+//   bench_texture_looks OUT [--exemplar PICTURE] [--size N] [--variants N] [--keep] ASSET...
 // Each asset is textured by rule, by a prompt (from a list, in turn) and, with --exemplar, from the
 // picture. Seams: the mean colour step across borders of charts over that beside them, at all edges
 // and at those where the surface turns by less than 40 degrees. Gaps: samples of the surface whose
@@ -9,6 +9,9 @@
 // true kind is the most probable of the kinds of the library prior (models/library_prior.pt), or
 // among its five most probable, by the mean over 8 views as its training draws them; the kind is
 // that of the folder's name (mug_1) or any of the category's. Assets without a kind do not count.
+// With --keep textures that are in OUT already are measured and not made again: their seconds and
+// distances are 0, and assets without any are left out. Smooth edges count where there are 50
+// places to compare.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -21,6 +24,7 @@
 #include "assets/asset_folder.h"
 #include "core/elapsed_time.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/random.h"
 #include "library_fit/fit_kinds.h"
 #include "library_fit/library_prior.h"
@@ -52,6 +56,7 @@ constexpr const char* kPrompts[] = {"blue with a white inside",
 struct Settings {
   fs::path output, exemplar;
   int size = 1024, variants = 3;
+  bool keep = false;  // measures what is there
   std::vector<fs::path> assets;
 };
 
@@ -198,7 +203,9 @@ class Bench {
     request.output = settings_.output / by;
     request.force = true;
     core::Progress silent;
-    const workflows::TextureReport report = workflows::TextureAsset(request, &silent);
+    const workflows::TextureReport report =
+        settings_.keep ? Kept(request) : workflows::TextureAsset(request, &silent);
+    if (report.variants.empty()) return;
     Totals& totals = by == "rule" ? by_rule_ : by == "prompt" ? by_prompt_ : by_exemplar_;
     ++totals.count;
     Row row{asset.filename().string(), by, report.preparation};
@@ -214,6 +221,21 @@ class Bench {
     std::fflush(stdout);
   }
 
+  // Returns the variants that are in the output already.
+  static workflows::TextureReport Kept(const workflows::TextureRequest& request) {
+    workflows::TextureReport report;
+    for (int v = 0; v < request.variants; ++v) {
+      workflows::TextureVariant variant;
+      char number[16];
+      std::snprintf(number, sizeof number, "_%03d", v);
+      const std::string name = core::ReadFile(request.asset / "asset.json");
+      const std::size_t at = name.find("\"name\": \"") + 9;
+      variant.folder = request.output / (name.substr(at, name.find('"', at) - at) + number);
+      if (fs::exists(variant.folder)) report.variants.push_back(variant);
+    }
+    return report;
+  }
+
   struct Row {
     std::string asset, by;
     double preparation = 0.0, seconds = 0.0, ratio = 0.0, smooth = 0.0;
@@ -227,8 +249,10 @@ class Bench {
     const Surface surface = MeasureSurface(variant.folder);
     const double ratio = Ratio(surface.seam, surface.inside, surface.samples);
     row->ratio = std::max(row->ratio, ratio);
-    row->smooth = std::max(
-        row->smooth, Ratio(surface.smooth_seam, surface.smooth_inside, surface.smooth_samples));
+    if (surface.smooth_samples >= 50.0) {
+      row->smooth = std::max(
+          row->smooth, Ratio(surface.smooth_seam, surface.smooth_inside, surface.smooth_samples));
+    }
     row->gaps += surface.gaps;
     row->seconds = std::max(row->seconds, variant.seconds);
     totals->worst_ratio = std::max(totals->worst_ratio, row->smooth);
@@ -286,7 +310,9 @@ Settings SettingsOf(int argc, char** argv) {
     const std::string flag = argv[i];
     const bool takes = flag == "--exemplar" || flag == "--size" || flag == "--variants";
     if (takes && i + 1 >= argc) throw core::Error("needs a value", flag);
-    if (flag == "--exemplar") {
+    if (flag == "--keep") {
+      settings.keep = true;
+    } else if (flag == "--exemplar") {
       settings.exemplar = argv[++i];
     } else if (flag == "--size") {
       settings.size = std::atoi(argv[++i]);

@@ -116,6 +116,9 @@ BorderSteps StepsAtBorders(const core::TexturedMesh& mesh, double largest_turn) 
       const float t = (static_cast<float>(s) + 0.5f) / static_cast<float>(samples);
       const float inset = kInset * texel, far = (kInset + kDistance) * texel;
       bool has_beside = false;
+      const bool is_wide =
+          sides[0].Contains(sides[0].At(t, inset)) && sides[1].Contains(sides[1].At(t, inset));
+      if (!is_wide) continue;
       for (const EdgeSide& side : sides) {
         const Eigen::Vector2f beyond = side.At(t, far);
         if (!side.Contains(beyond)) continue;
@@ -127,7 +130,7 @@ BorderSteps StepsAtBorders(const core::TexturedMesh& mesh, double largest_turn) 
         }
         has_beside = true;
       }
-      if (!has_beside) continue;  // the triangles are too narrow to compare with
+      if (!has_beside) continue;
       steps.across.push_back(ColorStep(texture, sides[0].At(t, inset), sides[1].At(t, inset)));
     }
   }

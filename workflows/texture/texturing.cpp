@@ -51,6 +51,12 @@ class Texturing {
     }
     ReadSources();
     RequireFreeOutput();
+    if (asset_.articulated) {
+      report_.findings.push_back({"texture-maps-left-out", core::Severity::kInfo, asset_.name,
+                                  "maps of roughness, metal and relief are not written for "
+                                  "articulated assets, whose links "
+                                  "have a base colour alone"});
+    }
     const core::Image original = asset_looks::ViewOf(asset_);
     report_.preparation = core::SecondsSince(start);
     pictures_ = {original};
