@@ -334,6 +334,12 @@ std::string SafeCategory(std::string_view name) {
   return safe;
 }
 
+std::string RowOf(const std::string& category) {
+  const physics_params::Resolution row =
+      physics_params::ResolveCategory(category, KnowledgeBase::Shipped(), WordNet::Installed());
+  return row.category == nullptr ? "" : row.category->name;
+}
+
 std::string PromptFor(const std::string& category) {
   return "a single " + category +
          " on a plain white background, studio light, whole object in frame";
