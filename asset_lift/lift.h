@@ -54,7 +54,7 @@ struct LiftOptions {
   int texture_size = 1024;              // pixels per side
   // Divides the photo's shading out before it becomes the texture (texture/delighting.h).
   bool delight = false;
-  int max_side = 1024;                  // a larger photo is scaled down first
+  int max_side = 1024;  // a larger photo is scaled down first
   std::uint64_t seed = 1;
   SegmentationOptions segmentation;
   InflationOptions inflation;

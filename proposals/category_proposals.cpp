@@ -26,6 +26,7 @@ constexpr double kShortest = 0.01, kLongest = 0.6;  // m, of the longest side's 
 constexpr int kMostPerRow = 3;
 // A chosen category lowers the scores of others with its last word, and of its noun of the theme.
 constexpr double kSameWord = 0.8, kSameNoun = 0.95;
+constexpr double kSpecial = 0.85;  // of rows whose last word is a row, too
 constexpr int kHyponymSteps = 4;
 constexpr int kAskedTimes = 3;
 constexpr std::size_t kLongestPrompt = 300;  // bytes
@@ -99,20 +100,26 @@ struct Candidate {
   std::size_t anchor = 0;
 };
 
-// Returns the relevance of a synset: an anchor's weight, less by its distance below it; half of
-// WordNet's similarity elsewhere.
+// Returns the relevance of a synset: an anchor's weight, less by its distance below it; below none,
+// half of WordNet's similarity.
 Relevance RelevanceOf(const WordNet& wordnet, WordNet::Synset synset,
                       const std::vector<Anchor>& anchors) {
   Relevance best;
-  for (std::size_t a = 0; a < anchors.size(); ++a) {
-    const Anchor& anchor = anchors[a];
-    for (std::size_t sense = 0; sense < anchor.senses.size(); ++sense) {
-      const double weight = anchor.weight * (sense == 0 ? 1.0 : 0.8);
-      const std::optional<int> steps = wordnet.StepsUp(synset, anchor.senses[sense]);
-      const double value = steps ? weight * std::max(0.6, 1.0 - 0.04 * *steps)
-                                 : 0.5 * weight * wordnet.Similarity(synset, anchor.senses[sense]);
-      if (value > best.score) best = {value, a};
+  const auto compare = [&](const auto& value_of) {
+    for (std::size_t a = 0; a < anchors.size(); ++a) {
+      for (std::size_t sense = 0; sense < anchors[a].senses.size(); ++sense) {
+        const double weight = anchors[a].weight * (sense == 0 ? 1.0 : 0.8);
+        const double value = weight * value_of(anchors[a].senses[sense]);
+        if (value > best.score) best = {value, a};
+      }
     }
+  };
+  compare([&](WordNet::Synset anchor) {
+    const std::optional<int> steps = wordnet.StepsUp(synset, anchor);
+    return steps ? std::max(0.6, 1.0 - 0.04 * *steps) : 0.0;
+  });
+  if (best.score == 0.0) {
+    compare([&](WordNet::Synset anchor) { return 0.5 * wordnet.Similarity(synset, anchor); });
   }
   return best;
 }
@@ -151,6 +158,12 @@ std::vector<Candidate> RowCandidates(const WordNet& wordnet, const std::vector<A
       factor = std::max(0.75, factor - 0.05);
     }
     if (best.score <= 0.0) continue;
+    // "mug" comes before "coffee mug".
+    const std::size_t blank = row.name.rfind(' ');
+    const bool is_special =
+        blank != std::string::npos &&
+        KnowledgeBase::Shipped().FindCategory(row.name.substr(blank + 1)) != nullptr;
+    if (is_special) best.score *= kSpecial;
     candidates.push_back({{row.name, "", "knowledge base", row.name, best.score}, best.anchor});
   }
   return candidates;
@@ -319,6 +332,12 @@ std::string SafeCategory(std::string_view name) {
   const auto words = 1 + std::count(safe.begin(), safe.end(), ' ');
   if (!plain || !has_letter || safe.size() < 2 || safe.size() > 40 || words > 4) return "";
   return safe;
+}
+
+std::string RowOf(const std::string& category) {
+  const physics_params::Resolution row =
+      physics_params::ResolveCategory(category, KnowledgeBase::Shipped(), WordNet::Installed());
+  return row.category == nullptr ? "" : row.category->name;
 }
 
 std::string PromptFor(const std::string& category) {

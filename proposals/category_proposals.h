@@ -47,6 +47,9 @@ std::vector<CategoryProposal> LanguageModelCategories(const std::string& theme, 
 // 2 to 40 bytes in one to four words of ASCII letters, digits, hyphens and apostrophes.
 std::string SafeCategory(std::string_view name);
 
+// Returns the knowledge base's row that covers a category; "" if none does.
+std::string RowOf(const std::string& category);
+
 // Returns the words that ask for a picture of one object.
 std::string PromptFor(const std::string& category);
 // The negative prompt of all pictures.

@@ -49,7 +49,7 @@ class PictureCollector {
     for (const auto& [category, files] : given_.by_category) {
       if (is_known(category)) continue;
       Proposal proposal;
-      proposal.category = {category, PromptFor(category), "folder", "", 0.0};
+      proposal.category = {category, PromptFor(category), "folder", RowOf(category), 0.0};
       added.push_back(std::move(proposal));
     }
     const auto first_without = std::find_if(

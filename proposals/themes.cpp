@@ -12,6 +12,7 @@ const std::vector<Theme>& ShippedThemes() {
                                               {"glass", 0.95},
                                               {"cup", 1.0},
                                               {"drinking vessel", 1.0},
+                                              {"plate", 1.0},
                                               {"bowl", 0.95},
                                               {"bottle", 0.9},
                                               {"jar", 0.9},

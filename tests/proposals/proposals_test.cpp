@@ -176,7 +176,7 @@ class ScriptedGenerator final : public texture::ImageGenerator {
 
 ProposalRequest Wanted(const fs::path& output) {
   ProposalRequest request;
-  request.theme = "kitchen";
+  request.theme = "garden";
   request.count = 5;
   request.size = 320;
   request.output = output;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "assets/asset_folder.h"
+#include "assets/mesh_import.h"
 #include "core/files.h"
 #include "program.h"
 #include "tests/assets/sample_asset.h"
@@ -37,6 +38,26 @@ TEST(AssetExport, WritesALayerThatItsReportDescribes) {
                                    " --format usd -o " + (folder.path() / "usd").string());
   EXPECT_EQ(again.code, 1);
   EXPECT_NE(again.text.find("--force"), std::string::npos) << again.text;
+}
+
+TEST(AssetExport, WritesAGlbThatTheImporterReads) {
+  const core::TemporaryFolder folder;
+  const assets::Asset asset = assets::SampleAsset();
+  fs::create_directories(folder.path() / "asset");
+  assets::WriteAsset(asset, folder.path() / "asset");
+  const std::string command = "export " + (folder.path() / "asset").string() + " --format glb -o ";
+  const fs::path file = folder.path() / "out.glb";
+  const Outcome made = RunProgram(command + file.string());
+  ASSERT_EQ(made.code, 0) << made.text;
+  const assets::MeshFile read = assets::ReadMeshFile(file);
+  EXPECT_EQ(read.mesh.mesh.triangles.size(), asset.visual.mesh.triangles.size());
+  EXPECT_NEAR(core::SurfaceArea(read.mesh.mesh), core::SurfaceArea(asset.visual.mesh), 1e-6);
+  const Outcome again = RunProgram(command + file.string());
+  EXPECT_EQ(again.code, 1);
+  EXPECT_NE(again.text.find("--force"), std::string::npos) << again.text;
+  const Outcome named = RunProgram(command + (folder.path() / "out.gltf").string());
+  EXPECT_EQ(named.code, 1);
+  EXPECT_NE(named.text.find(".glb"), std::string::npos) << named.text;
 }
 
 TEST(AssetExport, RefusesWhatIsNoAssetInOneLine) {
