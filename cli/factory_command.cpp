@@ -5,29 +5,29 @@
 #include "cli/findings_output.h"
 #include "cli/image_generator_options.h"
 #include "core/error.h"
-#include "workflows/factory/factory.h"
+#include "factory/factory.h"
 
 namespace simwright::cli {
 namespace {
 
 struct FactoryFlags {
-  workflows::FactoryRequest request;
+  factory::FactoryRequest request;
   ImageGeneratorFlags generator;
 };
 
 int Factory(const FactoryFlags& flags, const CommonOptions& common) {
-  workflows::FactoryRequest request = flags.request;
+  factory::FactoryRequest request = flags.request;
   request.theme.seed = common.seed;
   if (flags.generator.given()) request.generator = MakeFlaggedGenerator(flags.generator, common);
   core::Progress progress(common.ProgressStyle());
   try {
-    const workflows::FactoryReport report = workflows::RunFactory(request, &progress);
+    const factory::FactoryReport report = factory::RunFactory(request, &progress);
     if (common.json) {
-      PrintJson(workflows::FactoryJson(report), report.findings);
+      PrintJson(factory::FactoryJson(report), report.findings);
     } else {
       int notes = 0;
       PrintWarnings(report.findings, common, &notes);
-      if (!common.quiet) std::fputs(workflows::FactoryTable(report).c_str(), stdout);
+      if (!common.quiet) std::fputs(factory::FactoryTable(report).c_str(), stdout);
       std::printf("%s\n", report.page.c_str());
     }
     return report.state.made() > 0 ? 0 : 1;
@@ -50,7 +50,7 @@ void AddFactory(CLI::App* app, CommonOptions* common, Run* run) {
       "The dashboard is kitchen/index.html. More workers join with --resume, also on other "
       "machines\n"
       "that share the folder. See docs/factory.md.");
-  workflows::FactoryRequest& request = flags->request;
+  factory::FactoryRequest& request = flags->request;
   auto* plan = command->add_option("plan", request.plan, "A plan of sources (docs/factory.md)");
   plan->default_str("none");
   command->add_option("--theme", request.theme.theme, "The theme of the library's objects")

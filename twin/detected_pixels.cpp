@@ -35,7 +35,7 @@ std::vector<Peak> FindPeaks(const DetectedPixels& pixels) {
               ny >= pixels.height) {
             continue;
           }
-          // Of equal neighbours the last one is the peak.
+          // The last of equal neighbours is the peak.
           const bool later = dy > 0 || (dy == 0 && dx > 0);
           largest = later ? heat(nx, ny) < value : heat(nx, ny) <= value;
         }

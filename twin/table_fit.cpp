@@ -150,7 +150,7 @@ class TableSearch {
 
   double Loss(const TableFit& fit) const {
     double sum = fit.shape_loss;
-    // Of the three sizes the part that they share is as uncertain as the camera's height.
+    // The part that the three sizes share is as uncertain as the camera's height.
     const double common = fit.size_off.mean();
     for (int i = 0; i < 3; ++i) {
       sum += kSizeWeight * std::abs(fit.size_off[i] - common) / fit.size_error[i];

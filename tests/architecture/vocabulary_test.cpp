@@ -20,7 +20,7 @@ const std::vector<std::string> kModules = {
     "scene",       "validation",  "importers",   "manipulation",
     "skills",      "workflows",   "cli",         "capture",
     "library_fit", "certificate", "viewer",      "asset_looks",
-    "python",      "proposals",   "twin"};
+    "python",      "proposals",   "twin",        "factory"};
 
 struct Line {
   std::string place, text;

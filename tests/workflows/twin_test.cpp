@@ -47,7 +47,12 @@ TEST(TwinRecord, IsReadAsWritten) {
   const TwinRecord record = SmallRecord();
   core::WriteFile(folder.path() / "twin.json", TwinJson(record));
   const TwinRecord read = ReadTwin(folder.path());
-  EXPECT_EQ(TwinJson(read), TwinJson(record));
+  ASSERT_EQ(read.objects.size(), 1u);
+  EXPECT_EQ(read.objects[0].size, record.objects[0].size);
+  EXPECT_EQ(read.objects[0].position_error, record.objects[0].position_error);
+  EXPECT_EQ(read.objects[0].box.max(), record.objects[0].box.max());
+  EXPECT_EQ(read.log_scale_error, record.log_scale_error);
+  EXPECT_TRUE(read.stands);
   EXPECT_TRUE(read.objects[0].world_from_object.isApprox(record.objects[0].world_from_object));
   EXPECT_TRUE(read.camera.world_from_camera.isApprox(record.camera.world_from_camera));
 }

@@ -22,7 +22,6 @@ std::string_view capture_page_html();
 std::string_view import_page_html();
 std::string_view photo_run_trajectory_html();
 std::string_view twin_page_html();
-std::string_view factory_page_html();
 
 }  // namespace data
 

@@ -12,7 +12,7 @@
 
 namespace simwright::workflows {
 
-// What the user knows of the camera; 0: unknown. Angles in degrees.
+// The numbers of the camera that the user knows; 0: unknown. Angles in degrees.
 struct TwinCameraFlags {
   double fov = 0.0;        // horizontal field of view
   double elevation = 0.0;  // of the optical axis below the horizon

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace simwright::workflows {
+namespace simwright::factory {
 
 // The places of a factory's folder.
 struct FactoryFolder {
@@ -31,4 +31,4 @@ struct FactoryFolder {
   }
 };
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

@@ -2,12 +2,12 @@
 
 #include <memory>
 
+#include "factory/factory_folder.h"
+#include "factory/factory_plan.h"
+#include "factory/factory_record.h"
 #include "texture/image_generator.h"
-#include "workflows/factory/factory_folder.h"
-#include "workflows/factory/factory_plan.h"
-#include "workflows/factory/factory_record.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
 
 // Makes one asset of a factory and its texture variants in folder.assets(), and checks them. A
 // failed attempt is repeated with another seed, a photo at last in its free form; the record names
@@ -22,4 +22,4 @@ void RequireFreeDisk(const std::filesystem::path& folder);
 // Returns the processor time of the calling thread, s.
 double ThreadSeconds();
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

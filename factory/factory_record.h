@@ -7,7 +7,7 @@
 
 #include "core/finding.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
 
 // An attempt at an asset that failed.
 struct FactoryFailure {
@@ -15,7 +15,7 @@ struct FactoryFailure {
   std::string changed;  // what the next attempt changes: "seed 1003"; empty for the last
 };
 
-// What became of an asset of a factory: DIR/done/NAME.json.
+// The outcome of an asset of a factory: DIR/done/NAME.json.
 struct AssetRecord {
   std::string name;
   std::string source;  // "library", "photo" or "file"
@@ -29,7 +29,7 @@ struct AssetRecord {
   bool made() const { return !folder.empty(); }
 };
 
-// What became of a part of the tasks: DIR/done/tasks_NNNNN.json.
+// The outcome of a part of the tasks: DIR/done/tasks_NNNNN.json.
 struct TaskPartRecord {
   int part = 0;
   int asked = 0, made = 0;  // tasks; all that are made are verified
@@ -45,4 +45,4 @@ std::string TaskPartText(const TaskPartRecord& record);
 std::optional<AssetRecord> ReadAssetRecord(const std::filesystem::path& file);
 std::optional<TaskPartRecord> ReadTaskPart(const std::filesystem::path& file);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "workflows/factory/factory_folder.h"
-#include "workflows/factory/factory_plan.h"
-#include "workflows/factory/factory_record.h"
+#include "factory/factory_folder.h"
+#include "factory/factory_plan.h"
+#include "factory/factory_record.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
 
 // Returns the number of tasks of a part of the plan: tasks_per_part, the last one the rest.
 int AskedTasks(const FactoryPlan& plan, int part);
@@ -18,4 +18,4 @@ TaskPartRecord MakeTaskPart(const FactoryPlan& plan, int part, int asked,
 // number of tasks.
 int JoinTaskParts(int parts, const FactoryFolder& folder);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "workflows/factory/factory_folder.h"
-#include "workflows/factory/factory_plan.h"
-#include "workflows/factory/factory_record.h"
+#include "factory/factory_folder.h"
+#include "factory/factory_plan.h"
+#include "factory/factory_record.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
 
 // The state of a factory, from the records in its folder.
 struct FactoryState {
@@ -21,7 +21,7 @@ struct FactoryState {
 
 FactoryState ReadFactoryState(const FactoryPlan& plan, const FactoryFolder& folder);
 
-// What the page says of the worker that writes it.
+// The worker that writes the page.
 struct WorkerState {
   bool running = true;
   double seconds = 0.0;  // since it started
@@ -33,4 +33,4 @@ struct WorkerState {
 std::string FactoryPage(const FactoryPlan& plan, const FactoryState& state,
                         const WorkerState& worker);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

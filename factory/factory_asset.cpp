@@ -1,4 +1,4 @@
-#include "workflows/factory/factory_asset.h"
+#include "factory/factory_asset.h"
 
 #include <chrono>
 #include <ctime>
@@ -13,7 +13,7 @@
 #include "workflows/lift/lift.h"
 #include "workflows/texture/texturing.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
 namespace fs = std::filesystem;
 namespace {
 
@@ -21,20 +21,21 @@ constexpr int kAttempts = 3;
 constexpr std::uint64_t kSeedStep = 100'000;  // between the attempts
 constexpr std::uintmax_t kLeastFreeBytes = 200u << 20;
 
-// What one attempt made.
+// The outcome of one attempt.
 struct Attempt {
   std::string refusal;  // empty: made
   core::Findings findings;
 };
 
 Attempt MakeLibraryAsset(const FactoryItem& item, std::uint64_t seed, const fs::path& target) {
-  LibraryOptions options;
+  workflows::LibraryOptions options;
   options.kind = item.kind;
   options.seed = seed;
   options.force = true;
   core::Progress silent;
   const fs::path parent = target.parent_path() / ("." + target.filename().string() + ".making");
-  const std::vector<LibraryOutcome> made = MakeLibrary(options, parent, &silent);
+  const std::vector<workflows::LibraryOutcome> made =
+      workflows::MakeLibrary(options, parent, &silent);
   Attempt attempt{made.front().refusal, made.front().findings};
   if (attempt.refusal.empty()) {
     fs::remove_all(target);
@@ -46,26 +47,27 @@ Attempt MakeLibraryAsset(const FactoryItem& item, std::uint64_t seed, const fs::
 
 Attempt MakePhotoAsset(const FactoryItem& item, std::uint64_t seed, bool free_form,
                        const fs::path& target) {
-  LiftRequest request;
+  workflows::LiftRequest request;
   request.photo = item.file;
   request.category = item.kind;
-  request.shape = free_form ? LiftShape::kFree : LiftShape::kAuto;
+  request.shape = free_form ? workflows::LiftShape::kFree : workflows::LiftShape::kAuto;
   request.effort = asset_lift::LiftEffort::kFast;
   request.seed = seed;
   request.output = target;
   request.force = true;
   core::Progress silent;
-  return {"", LiftToFolder(request, &silent).findings};
+  return {"", workflows::LiftToFolder(request, &silent).findings};
 }
 
 Attempt ImportFactoryAsset(const FactoryItem& item, std::uint64_t seed, const fs::path& target) {
-  ImportOptions options;
+  workflows::ImportOptions options;
   options.category = item.kind;
   options.seed = seed;
   options.force = true;
   core::Progress silent;
-  const ImportItem file{item.file, -1, target.filename().string(), {}};
-  const std::vector<ImportOutcome> made = ImportAll({file}, target.parent_path(), options, &silent);
+  const workflows::ImportItem file{item.file, -1, target.filename().string(), {}};
+  const std::vector<workflows::ImportOutcome> made =
+      workflows::ImportAll({file}, target.parent_path(), options, &silent);
   return {made.front().refusal, made.front().findings};
 }
 
@@ -105,7 +107,7 @@ core::Findings WarningsOf(const core::Findings& findings) {
 
 void MakeVariants(const FactoryItem& item, const FactoryFolder& folder,
                   const std::shared_ptr<texture::ImageGenerator>& generator, AssetRecord* record) {
-  TextureRequest request;
+  workflows::TextureRequest request;
   request.asset = folder.assets() / item.name;
   request.prompt = item.prompt;
   request.generator = item.prompt.empty() ? nullptr : generator;
@@ -115,7 +117,8 @@ void MakeVariants(const FactoryItem& item, const FactoryFolder& folder,
   request.force = true;
   core::Progress silent;
   try {
-    for (const TextureVariant& variant : TextureAsset(request, &silent).variants) {
+    for (const workflows::TextureVariant& variant :
+         workflows::TextureAsset(request, &silent).variants) {
       record->variants.push_back("assets/" + variant.folder.filename().string());
     }
   } catch (const core::Error& error) {
@@ -168,4 +171,4 @@ AssetRecord MakeFactoryAsset(const FactoryItem& item, const FactoryFolder& folde
   return record;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

@@ -1,4 +1,4 @@
-#include "workflows/factory/factory.h"
+#include "factory/factory.h"
 
 #include <sys/resource.h>
 
@@ -14,13 +14,13 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/parallel.h"
+#include "factory/factory_asset.h"
+#include "factory/factory_folder.h"
+#include "factory/factory_record.h"
+#include "factory/factory_tasks.h"
 #include "scene/dataset/shard_claim.h"
-#include "workflows/factory/factory_asset.h"
-#include "workflows/factory/factory_folder.h"
-#include "workflows/factory/factory_record.h"
-#include "workflows/factory/factory_tasks.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
 namespace fs = std::filesystem;
 namespace {
 
@@ -262,4 +262,4 @@ std::string FactoryJson(const FactoryReport& report) {
   return core::JsonText(json);
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

@@ -1,4 +1,4 @@
-#include "workflows/factory/factory_tasks.h"
+#include "factory/factory_tasks.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,11 +10,11 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "factory/factory_asset.h"
 #include "tasks/task_file.h"
-#include "workflows/factory/factory_asset.h"
 #include "workflows/tasks/task_making.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
 namespace fs = std::filesystem;
 
 int AskedTasks(const FactoryPlan& plan, int part) {
@@ -28,7 +28,7 @@ TaskPartRecord MakeTaskPart(const FactoryPlan& plan, int part, int asked,
   TaskPartRecord record;
   record.part = part;
   record.asked = asked;
-  TasksRequest request;
+  workflows::TasksRequest request;
   for (const int index : ItemsOfPart(plan, part)) {
     const std::string& name = plan.items[static_cast<size_t>(index)].name;
     const auto made = ReadAssetRecord(folder.asset_record(name));
@@ -46,7 +46,7 @@ TaskPartRecord MakeTaskPart(const FactoryPlan& plan, int part, int asked,
   } else {
     try {
       core::Progress silent;
-      TasksReport report = MakeTasks(request, &silent);
+      workflows::TasksReport report = workflows::MakeTasks(request, &silent);
       std::erase_if(report.set.tasks, [](const tasks::Task& task) { return !task.valid(); });
       tasks::WriteTaskFile(report.set, request.output);
       record.made = static_cast<int>(report.set.tasks.size());
@@ -85,4 +85,4 @@ int JoinTaskParts(int parts, const FactoryFolder& folder) {
   return static_cast<int>(joined.tasks.size());
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

@@ -1,4 +1,4 @@
-#include "workflows/factory/factory_plan.h"
+#include "factory/factory_plan.h"
 
 #include <algorithm>
 #include <map>
@@ -14,7 +14,7 @@
 #include "proposals/category_proposals.h"
 #include "workflows/import/import.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
 namespace fs = std::filesystem;
 namespace {
 
@@ -89,7 +89,7 @@ void AddPhotoItems(const fs::path& folder, const FactoryItem& like, FactoryPlan*
 }
 
 void AddFileItems(const fs::path& path, const FactoryItem& like, FactoryPlan* plan) {
-  for (const ImportItem& listed : ListImports({path}, {})) {
+  for (const workflows::ImportItem& listed : workflows::ListImports({path}, {})) {
     if (listed.piece >= 0) continue;
     FactoryItem item = like;
     item.source = FactorySource::kFile;
@@ -318,4 +318,4 @@ std::vector<int> ItemsOfPart(const FactoryPlan& plan, int part) {
   return items;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

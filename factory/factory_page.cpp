@@ -1,15 +1,22 @@
-#include "workflows/factory/factory_page.h"
+#include "factory/factory_page.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <string_view>
 
 #include "core/text_template.h"
-#include "workflows/factory/factory_tasks.h"
+#include "factory/factory_tasks.h"
 #include "workflows/tasks/page_markup.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
+namespace data {
+
+// The file templates/factory_page.html, embedded.
+std::string_view factory_page_html();
+
+}  // namespace data
+
 namespace {
 
 constexpr size_t kMostPictures = 400, kMostFailures = 200;
@@ -158,7 +165,7 @@ std::string FactoryPage(const FactoryPlan& plan, const FactoryState& state,
        {"failures",
         core::Markup{failures.empty() ? "<tr><td colspan=\"3\">none</td></tr>" : failures}},
        {"pictures", core::Markup{Pictures(state)}}});
-  return Page(title, data::photo_run_css(), body);
+  return workflows::Page(title, workflows::data::photo_run_css(), body);
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

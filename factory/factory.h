@@ -7,11 +7,11 @@
 
 #include "core/finding.h"
 #include "core/progress.h"
+#include "factory/factory_page.h"
+#include "factory/factory_plan.h"
 #include "texture/image_generator.h"
-#include "workflows/factory/factory_page.h"
-#include "workflows/factory/factory_plan.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
 
 struct FactoryRequest {
   std::filesystem::path plan;    // the user's plan; empty: `theme`
@@ -41,4 +41,4 @@ FactoryReport RunFactory(const FactoryRequest& request, core::Progress* progress
 std::string FactoryTable(const FactoryReport& report);
 std::string FactoryJson(const FactoryReport& report);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

@@ -7,7 +7,7 @@
 
 #include "core/finding.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
 
 // The way an asset of a factory is made.
 enum class FactorySource { kLibrary, kPhoto, kFile };
@@ -57,4 +57,4 @@ FactoryPlan ReadPlanText(const std::filesystem::path& file);
 int PartCount(const FactoryPlan& plan);
 std::vector<int> ItemsOfPart(const FactoryPlan& plan, int part);
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory

@@ -1,4 +1,4 @@
-#include "workflows/factory/factory_record.h"
+#include "factory/factory_record.h"
 
 #include <cstdint>
 #include <utility>
@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/json.h"
 
-namespace simwright::workflows {
+namespace simwright::factory {
 namespace fs = std::filesystem;
 namespace {
 
@@ -86,4 +86,4 @@ std::optional<TaskPartRecord> ReadTaskPart(const fs::path& file) {
   return record;
 }
 
-}  // namespace simwright::workflows
+}  // namespace simwright::factory
