@@ -4,13 +4,16 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "cli/image_generator_options.h"
 #include "core/finding.h"
 #include "workflows/texture/texturing.h"
 
 namespace simwright::cli {
 namespace {
 
-int Texture(workflows::TextureRequest request, const CommonOptions& common) {
+int Texture(workflows::TextureRequest request, const ImageGeneratorFlags& generator,
+            const CommonOptions& common) {
+  if (generator.given()) request.generator = MakeFlaggedGenerator(generator, common);
   request.seed = common.seed;
   request.force = common.force;
   core::Progress progress(common.ProgressStyle());
@@ -36,6 +39,8 @@ void AddTexture(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright texture cabinet --prompt \"walnut with brass handles\" --variants 8\n"
       "  simwright texture bowl --exemplar granite.jpg\n"
       "  simwright texture chair --like cabinet\n"
+      "  simwright texture mug --prompt \"a mug with a map of stars\" "
+      "--generator http://localhost:7860\n"
       "Without words or a picture the materials follow from the asset's category and parts. Words "
       "that change nothing are reported. Geometry, mass and collision parts stay as they are.");
   command->add_option("asset", request->asset, "The folder of an asset, rigid or articulated")
@@ -66,12 +71,14 @@ void AddTexture(CLI::App* app, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_option("-o,--output", request->output, "The folder for the variants")
       ->capture_default_str();
+  auto generator = std::make_shared<ImageGeneratorFlags>();
+  AddImageGenerator(command, generator.get());
   AddForce(command, common);
   AddCommon(command, common);
   command->callback([=] {
     *run = [=] {
       request->as_materials = *as == "materials";
-      return Texture(*request, *common);
+      return Texture(*request, *generator, *common);
     };
   });
 }
