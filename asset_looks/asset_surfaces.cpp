@@ -8,6 +8,7 @@
 
 #include "assets/articulated_folder.h"
 #include "assets/asset_folder.h"
+#include "assets/pbr_look.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "texture/uv_atlas.h"
@@ -99,6 +100,7 @@ int LinkSize(double area, double total, int size) {
 
 void AddRigid(const fs::path& folder, int size, AssetSurfaces* result) {
   result->rigid = assets::ReadAsset(folder);
+  result->look = assets::ReadPbrLook(folder);
   const assets::Asset& asset = *result->rigid;
   result->name = asset.name;
   result->category = asset.parameters.category;

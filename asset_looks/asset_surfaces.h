@@ -10,6 +10,7 @@
 #include "assets/asset.h"
 #include "core/finding.h"
 #include "core/mesh.h"
+#include "core/pbr_look.h"
 #include "texture/materials/material_bake.h"
 #include "texture/painting/texel_map.h"
 
@@ -29,6 +30,7 @@ struct TexturedSurface {
 struct AssetSurfaces {
   std::string name, category;
   std::optional<assets::Asset> rigid;  // one of the two
+  core::PbrLook look;                  // of the rigid asset as it is; may be empty
   std::optional<assets::ArticulatedAsset> articulated;
   std::vector<TexturedSurface> surfaces;  // of the rigid asset, or of each link
   std::vector<LookSlot> slots;

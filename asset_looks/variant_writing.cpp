@@ -11,6 +11,8 @@
 #include "assets/pbr_look.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/pbr_look.h"
+#include "render/turntable.h"
 
 namespace simwright::asset_looks {
 namespace fs = std::filesystem;
@@ -28,9 +30,9 @@ core::TexturedMesh WithTexture(const TexturedSurface& surface, const core::Image
   return mesh;
 }
 
-assets::PbrLook LookOf(const texture::MaterialMaps& maps) {
-  assets::PbrLook look;
-  assets::PbrMaterial material;
+core::PbrLook LookOf(const texture::MaterialMaps& maps) {
+  core::PbrLook look;
+  core::PbrMaterial material;
   material.roughness = 1.0f;
   material.roughness_map = 0;
   look.images.push_back(maps.roughness);
@@ -43,6 +45,14 @@ assets::PbrLook LookOf(const texture::MaterialMaps& maps) {
   }
   look.materials.push_back(material);
   return look;
+}
+
+core::Image RigidViewOf(const assets::Asset& asset, const core::PbrLook& look) {
+  render::TurntableOptions options;
+  options.views = 1;
+  options.size = kViewSize;
+  if (!look.empty()) options.look = &look;
+  return render::Turntable(asset.visual, options).front();
 }
 
 core::OrderedJson ReadJson(const fs::path& file) {
@@ -101,9 +111,10 @@ core::Image WriteVariant(const AssetSurfaces& asset, const std::vector<texture::
   if (asset.rigid) {
     const assets::Asset textured = TexturedRigid(asset, maps.front(), name);
     assets::WriteAsset(textured, folder);
-    assets::AddPbrLook(textured.visual, LookOf(maps.front()), name, folder);
-    core::WritePng(folder / "preview.png", asset_build::AssetPreview(textured));
-    view = asset_build::RigidView(textured, kViewSize);
+    const core::PbrLook look = LookOf(maps.front());
+    assets::AddPbrLook(textured.visual, look, name, folder);
+    core::WritePng(folder / "preview.png", asset_build::AssetPreview(textured, &look));
+    view = RigidViewOf(textured, look);
   } else {
     const assets::ArticulatedAsset textured = TexturedArticulated(asset, maps, name);
     assets::WriteArticulatedAsset(textured, folder);
@@ -137,8 +148,11 @@ void WriteAppearances(const std::vector<texture::MaterialMaps>& appearances,
   core::WriteFile(folder / "asset.json", core::JsonText(json));
 }
 
-core::Image ViewOf(const AssetSurfaces& asset) {
-  if (asset.rigid) return asset_build::RigidView(*asset.rigid, kViewSize);
+core::Image ViewOf(const AssetSurfaces& asset, const texture::MaterialMaps* maps) {
+  if (asset.rigid && maps != nullptr) {
+    return RigidViewOf(TexturedRigid(asset, *maps, asset.name), LookOf(*maps));
+  }
+  if (asset.rigid) return RigidViewOf(*asset.rigid, asset.look);
   return asset_build::ArticulatedView(*asset.articulated, 0.3, kViewSize);
 }
 

@@ -31,7 +31,8 @@ void WriteAppearances(const std::vector<texture::MaterialMaps>& appearances,
                       const std::vector<core::OrderedJson>& records,
                       const std::filesystem::path& folder);
 
-// Returns a view of the asset as it is, of the size of WriteVariant's.
-core::Image ViewOf(const AssetSurfaces& asset);
+// Returns a view of the asset as it is, or of a rigid asset with `maps`, of the size of
+// WriteVariant's.
+core::Image ViewOf(const AssetSurfaces& asset, const texture::MaterialMaps* maps = nullptr);
 
 }  // namespace simwright::asset_looks

@@ -217,9 +217,7 @@ class Texturing {
   void Keep(std::vector<texture::MaterialMaps> maps, TextureVariant* variant) {
     variant->name = asset_.name;
     variant->folder = request_.output / asset_.name;
-    asset_looks::AssetSurfaces shown = asset_;
-    shown.rigid = asset_looks::TexturedRigid(asset_, maps.front(), asset_.name);
-    pictures_.push_back(asset_looks::ViewOf(shown));
+    pictures_.push_back(asset_looks::ViewOf(asset_, &maps.front()));
     records_.push_back(RecordOf(*variant));
     appearances_.push_back(std::move(maps.front()));
   }
