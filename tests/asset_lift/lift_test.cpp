@@ -78,6 +78,32 @@ TEST(Lift, ACylinderComesBackAsOne) {
   EXPECT_NEAR(size.z() / size.x(), 0.1 / 0.08, 0.08);
 }
 
+// The photo of an evenly painted cylinder has its shading only: little of it stays in the texture.
+TEST(Lift, DelightingEvensTheTextureOfACylinder) {
+  const core::Image photo = LiftPhotograph(LiftCylinder(0.04, 0.1), 0.45, 300);
+  LiftOptions options;
+  options.elevation = 0.45;
+  options.texture_size = 512;
+  const auto unevenness = [&](bool delight) {
+    options.delight = delight;
+    core::Progress progress;
+    const LiftedMesh lifted = LiftPhoto(photo, PotPrior(), {}, options, &progress);
+    const bool found = std::any_of(lifted.findings.begin(), lifted.findings.end(),
+                                   [](const core::Finding& f) { return f.code == "delighting"; });
+    EXPECT_EQ(found, delight);
+    const core::Image& texture = lifted.mesh.textures.at(0);
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < texture.pixels.size(); i += 3) {
+      sum += texture.pixels[i];
+      squares += static_cast<double>(texture.pixels[i]) * texture.pixels[i];
+    }
+    const double mean = 3.0 * sum / static_cast<double>(texture.pixels.size());
+    const double square = 3.0 * squares / static_cast<double>(texture.pixels.size());
+    return std::sqrt(std::max(0.0, square - mean * mean)) / mean;
+  };
+  EXPECT_LT(unevenness(true), 0.6 * unevenness(false));
+}
+
 TEST(Lift, EstimatesTheElevationOfAPot) {
   SKIP_UNDER_SANITIZERS();
   for (const double elevation : {0.2, 0.4, 0.6}) {
