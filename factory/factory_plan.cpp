@@ -22,6 +22,7 @@ constexpr std::uint64_t kMostPlanBytes = 64u << 20;
 constexpr int kMostAssets = 100000, kMostTasks = 1000000, kMostVariants = 1000;
 constexpr int kArticulatedEvery = 10;  // one articulated asset among so many
 constexpr int kAssetsOfPart = 12;
+constexpr const char* kFurniture[] = {"drawer_unit", "microwave", "cabinet", "box_with_lid"};
 constexpr int kPlanFormat = 1;
 constexpr double kLargestTheme = 1.5;  // times as many categories as kinds are asked for
 
@@ -188,8 +189,12 @@ FactoryPlan PlanOfTheme(const FactoryThemeRequest& request, core::Findings* find
     throw core::Error("the library has no kind for the theme", request.theme,
                       "see simwright propose --theme");
   }
-  // Tasks open and fill furniture; the theme's own, else any that is small.
-  if (articulated.empty()) articulated = {"drawer_unit", "box_with_lid", "cabinet"};
+  // Proposals are things that a hand moves; tasks also open and fill furniture.
+  for (const char* furniture : kFurniture) {
+    if (std::find(articulated.begin(), articulated.end(), furniture) == articulated.end()) {
+      articulated.emplace_back(furniture);
+    }
+  }
   FactoryPlan plan;
   plan.theme = request.theme;
   plan.tasks = request.tasks;
