@@ -53,18 +53,22 @@ void AddFactory(CLI::App* app, CommonOptions* common, Run* run) {
   factory::FactoryRequest& request = flags->request;
   auto* plan = command->add_option("plan", request.plan, "A plan of sources (docs/factory.md)");
   plan->default_str("none");
-  command->add_option("--theme", request.theme.theme, "The theme of the library's objects")
-      ->excludes(plan)
-      ->default_str("none");
+  auto* theme =
+      command->add_option("--theme", request.theme.theme, "The theme of the library's objects")
+          ->excludes(plan)
+          ->default_str("none");
   command->add_option("--assets", request.theme.assets, "Number of assets of a theme")
+      ->needs(theme)
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command->add_option("--tasks", request.theme.tasks, "Number of verified tasks of a theme")
-      ->check(CLI::Range(0, 1000000))
+      ->needs(theme)
+      ->check(CLI::Range(0, 10000))
       ->capture_default_str();
   command
       ->add_option("--variants", request.theme.variants,
                    "Texture variants of each asset of a theme")
+      ->needs(theme)
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command->add_option("-o,--output", request.output, "The factory's folder")->required();

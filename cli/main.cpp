@@ -101,7 +101,7 @@ void StartWithThreadsAndKernels(int argc, char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
   const std::string_view command = argc > 1 ? argv[1] : "";
   if (command != "lift" && command != "prior" && command != "train" && command != "run" &&
-      command != "scene") {
+      command != "scene" && command != "twin" && command != "factory") {
     return;
   }
   setenv("OMP_WAIT_POLICY", "passive", 1);

@@ -37,8 +37,9 @@ void AddTwin(CLI::App* app, CommonOptions* common, Run* run) {
   CLI::App* command = app->add_subcommand("twin", "Rebuild the objects on a table from one photo");
   command->footer(
       "Example (true sizes, with a camera 62 cm above the table):\n"
-      "  simwright twin table.jpg --camera-height 0.62 -o twin\n"
-      "  simwright view twin/twin.json");
+      "  simwright twin table.jpg --objects boxes.json --camera-height 0.62 -o twin\n"
+      "  simwright view twin/twin.json\n"
+      "boxes.json: {\"objects\": [{\"box\": [112, 140, 168, 201], \"category\": \"mug\"}]}");
   command->add_option("photo", request->photo, "A photo of a table, from above")->required();
   command->add_option("-o,--output", request->output, "The folder for the twin")->required();
   command->add_option("--objects", request->objects,
@@ -55,8 +56,10 @@ void AddTwin(CLI::App* app, CommonOptions* common, Run* run) {
                    "Metres of the camera above the table")
       ->default_str("by the usual sizes of the objects");
   command->add_flag("--upright", request->camera.upright, "The photo is not rolled");
-  command->add_option("--detector", request->detector, "Weights of the detector")
-      ->default_str("the shipped ones");
+  command
+      ->add_option("--detector", request->detector,
+                   "Weights of simwright prior train --only detector, in place of --objects")
+      ->default_str("table_detector.pt beside the shipped weights; none is shipped yet");
   command->add_option("--most-objects", request->most_objects, "The largest detections are rebuilt")
       ->check(Positive())
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <functional>
 #include <mutex>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -109,18 +110,18 @@ class FactoryWorker {
   }
 
   // Writes the dashboard; `last`: even if the present one is new.
-  void WritePage(bool running, bool last) {
+  void WritePage(WorkerStage stage, bool last) {
     const std::lock_guard lock(page_mutex_);
     const auto now = std::chrono::steady_clock::now();
     if (!last && std::chrono::duration<double>(now - page_written_).count() < kPageSeconds) return;
     page_written_ = now;
     core::WriteFile(folder_.page(),
-                    FactoryPage(plan_, ReadFactoryState(plan_, folder_), State(running)));
+                    FactoryPage(plan_, ReadFactoryState(plan_, folder_), State(stage)));
   }
 
-  WorkerState State(bool running) const {
+  WorkerState State(WorkerStage stage) const {
     WorkerState state;
-    state.running = running;
+    state.stage = stage;
     state.threads = core::ThreadCount();
     state.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -133,13 +134,16 @@ class FactoryWorker {
     FactoryReport report;
     report.plan = plan_;
     report.state = ReadFactoryState(plan_, folder_);
-    report.worker = State(false);
+    report.worker = State(WorkerStage::kFinished);
     report.folder = folder_.root;
     report.page = folder_.page();
     if (fs::exists(folder_.tasks())) report.tasks = folder_.tasks();
     report.kept = kept_;
     report.findings = std::move(findings);
     for (const AssetRecord& asset : report.state.assets) {
+      for (const core::Finding& finding : asset.findings) {
+        if (finding.code == "factory-variants-failed") report.findings.push_back(finding);
+      }
       if (asset.made()) continue;
       report.findings.push_back(
           {"factory-asset-failed", core::Severity::kWarning, asset.name,
@@ -175,7 +179,7 @@ class FactoryWorker {
       core::ParallelFor(count, [&](int i) {
         const fs::path record = record_of(i);
         if (fs::exists(record)) {
-          if (first) Count(true);
+          Count(record, first);
           return;
         }
         core::CheckCancelled();
@@ -183,23 +187,25 @@ class FactoryWorker {
         if (!claim.held() || fs::exists(record)) return;
         const std::string text = make(i);
         core::WriteFile(record, text);
-        Count(false);
-        WritePage(true, false);
+        Count(record, false);
+        WritePage(WorkerStage::kRunning, false);
       });
       first = false;
       bool all = true;
       for (int i = 0; i < count && all; ++i) all = fs::exists(record_of(i));
       if (all) return;
       core::CheckCancelled();
-      WritePage(true, false);
+      WritePage(WorkerStage::kRunning, false);
       std::this_thread::sleep_for(std::chrono::duration<double>(kWaitSeconds));
     }
   }
 
-  void Count(bool kept) {
-    if (kept) {
+  // Counts a unit that is recorded, once; `kept`: it was before this worker began.
+  void Count(const fs::path& record, bool kept) {
+    {
       const std::lock_guard lock(page_mutex_);
-      ++kept_;
+      if (!counted_.insert(record.filename().string()).second) return;
+      if (kept && record.filename().string().rfind("tasks_", 0) != 0) ++kept_;
     }
     progress_.Advance();
   }
@@ -213,6 +219,7 @@ class FactoryWorker {
                                         page_written_ = start_;
   double processor_ = ProcessSeconds();
   int kept_ = 0;
+  std::set<std::string> counted_;
 };
 
 }  // namespace
@@ -221,16 +228,16 @@ FactoryReport RunFactory(const FactoryRequest& request, core::Progress* progress
   core::Findings findings;
   FactoryPlan plan = SharedPlan(request, {request.output}, &findings);
   FactoryWorker worker(request, std::move(plan), progress);
-  worker.WritePage(true, true);
+  worker.WritePage(WorkerStage::kRunning, true);
   try {
     worker.MakeAssets();
     worker.MakeTasks();
   } catch (...) {
-    worker.WritePage(false, true);
+    worker.WritePage(WorkerStage::kStopped, true);
     throw;
   }
   progress->Finish();
-  worker.WritePage(false, true);
+  worker.WritePage(WorkerStage::kFinished, true);
   return worker.Report(std::move(findings));
 }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <mutex>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -96,7 +97,7 @@ std::string NextChange(const FactoryItem& item, int attempt) {
                                                                           : seed;
 }
 
-// Keeps the warnings, of which the dashboard shows the most frequent ones.
+// Returns the warnings, which the record keeps.
 core::Findings WarningsOf(const core::Findings& findings) {
   core::Findings warnings;
   for (const core::Finding& finding : findings) {
@@ -111,6 +112,10 @@ void MakeVariants(const FactoryItem& item, const FactoryFolder& folder,
   request.asset = folder.assets() / item.name;
   request.prompt = item.prompt;
   request.generator = item.prompt.empty() ? nullptr : generator;
+  // A generator is asked from one thread at a time.
+  static std::mutex asking;
+  std::unique_lock<std::mutex> lock(asking, std::defer_lock);
+  if (request.generator != nullptr) lock.lock();
   request.variants = item.variants;
   request.seed = item.seed;
   request.output = folder.assets();
@@ -122,7 +127,12 @@ void MakeVariants(const FactoryItem& item, const FactoryFolder& folder,
       record->variants.push_back("assets/" + variant.folder.filename().string());
     }
   } catch (const core::Error& error) {
+    core::CheckCancelled();
+    RequireFreeDisk(folder.root);
     record->failures.push_back({std::string("texture: ") + error.what(), ""});
+    record->findings.push_back({"factory-variants-failed", core::Severity::kWarning, item.name,
+                                std::string("its texture variants failed: ") + error.what(), 0.0,
+                                "delete its record in done/ and resume"});
   }
 }
 
@@ -156,6 +166,7 @@ AssetRecord MakeFactoryAsset(const FactoryItem& item, const FactoryFolder& folde
   for (int attempt = 0; attempt < kAttempts && !record.made(); ++attempt) {
     core::CheckCancelled();
     const Attempt made = TryItem(item, attempt, folder.assets() / item.name);
+    core::CheckCancelled();  // library and import report a stop as a refusal
     // A write that failed for want of room is no fault of the asset.
     if (!made.refusal.empty()) RequireFreeDisk(folder.root);
     if (made.refusal.empty()) {

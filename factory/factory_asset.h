@@ -11,7 +11,7 @@ namespace simwright::factory {
 
 // Makes one asset of a factory and its texture variants in folder.assets(), and checks them. A
 // failed attempt is repeated with another seed, a photo at last in its free form; the record names
-// every attempt. What an earlier, killed attempt left is replaced. `generator`: paints the variants
+// every attempt. `generator`: paints the variants
 // for a prompt; may be null. Throws core::Error if the disk is full, and core::Cancelled.
 AssetRecord MakeFactoryAsset(const FactoryItem& item, const FactoryFolder& folder,
                              const std::shared_ptr<texture::ImageGenerator>& generator);

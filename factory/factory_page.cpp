@@ -44,6 +44,18 @@ std::string TimeText(double seconds) {
   return text;
 }
 
+const char* StageText(WorkerStage stage) {
+  switch (stage) {
+    case WorkerStage::kRunning:
+      return "Running";
+    case WorkerStage::kStopped:
+      return "Stopped (--resume goes on)";
+    case WorkerStage::kFinished:
+      break;
+  }
+  return "Finished";
+}
+
 std::string FailureRows(const FactoryState& state) {
   std::string rows;
   size_t count = 0;
@@ -140,13 +152,14 @@ std::string FactoryPage(const FactoryPlan& plan, const FactoryState& state,
   const int recorded = static_cast<int>(state.assets.size());
   const double mean = recorded > 0 ? cpu / recorded : 0.0;
   const double left = (total - recorded) * mean / std::max(1, worker.threads);
+  const bool running = worker.stage == WorkerStage::kRunning;
   char line[300];
   std::snprintf(line, sizeof line,
                 "%s after %s; processors %.0f %% busy; %.1f s of processor time "
                 "an asset%s",
-                worker.running ? "Running" : "Finished", TimeText(worker.seconds).c_str(),
-                100.0 * worker.busy, mean,
-                worker.running && recorded > 0 && recorded < total
+                StageText(worker.stage), TimeText(worker.seconds).c_str(), 100.0 * worker.busy,
+                mean,
+                running && recorded > 0 && recorded < total
                     ? ("; about " + TimeText(left) + " left for the assets").c_str()
                     : "");
   const std::string bars = Bar("Assets", state.made(), state.failed(), total) +

@@ -21,9 +21,11 @@ struct FactoryState {
 
 FactoryState ReadFactoryState(const FactoryPlan& plan, const FactoryFolder& folder);
 
+enum class WorkerStage { kRunning, kStopped, kFinished };
+
 // The worker that writes the page.
 struct WorkerState {
-  bool running = true;
+  WorkerStage stage = WorkerStage::kRunning;
   double seconds = 0.0;  // since it started
   double busy = 0.0;     // share of its processors' time, [0, 1]
   int threads = 1;

@@ -1,6 +1,7 @@
 #include "factory/factory_plan.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "library/rigid/rigid_kinds.h"
 #include "library_fit/fit_kinds.h"
 #include "proposals/category_proposals.h"
+#include "tasks/task_names.h"
 #include "workflows/import/import.h"
 
 namespace simwright::factory {
@@ -19,11 +21,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kMostPlanBytes = 64u << 20;
-constexpr int kMostAssets = 100000, kMostTasks = 1000000, kMostVariants = 1000;
+constexpr int kMostAssets = 100000, kMostTasks = 10000, kMostVariants = 1000;
 constexpr int kArticulatedEvery = 10;  // one articulated asset among so many
 constexpr int kAssetsOfPart = 12;
 constexpr const char* kFurniture[] = {"drawer_unit", "microwave", "cabinet", "box_with_lid"};
 constexpr int kPlanFormat = 1;
+constexpr size_t kLongestName = 40;
 constexpr double kLargestTheme = 1.5;  // times as many categories as kinds are asked for
 
 const std::map<std::string, FactorySource> kSources = {{"library", FactorySource::kLibrary},
@@ -50,7 +53,10 @@ bool IsArticulatedKind(const std::string& kind) {
 
 bool IsPhoto(const fs::path& path) {
   static const std::set<std::string> kEndings{".png", ".jpg", ".jpeg", ".webp"};
-  return kEndings.contains(path.extension().string());
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return kEndings.contains(ending);
 }
 
 // Adds `count` assets of kinds in turn; the seeds of each kind count up.
@@ -101,13 +107,31 @@ void AddFileItems(const fs::path& path, const FactoryItem& like, FactoryPlan* pl
   }
 }
 
-// Gives items with the same name distinct ones.
+// Returns `name` as a name that tasks can give an asset: a letter first, at most 40 characters.
+std::string TaskAssetName(const std::string& name) {
+  std::string safe;
+  for (const char c : name.substr(0, kLongestName)) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+    safe += plain ? c : '_';
+  }
+  return tasks::IsAssetName(safe) ? safe : "asset_" + safe;
+}
+
+// Gives items valid and distinct names; none is that of another's texture variant, NAME_NNN.
 void MakeNamesDistinct(FactoryPlan* plan) {
   std::map<std::string, int> count;
   std::set<std::string> taken;
   for (FactoryItem& item : plan->items) {
-    std::string name = item.name;
-    while (!taken.insert(name).second) name = item.name + "-" + std::to_string(++count[item.name]);
+    const std::string base = TaskAssetName(item.name);
+    std::string name = base;
+    const auto is_taken = [&] {
+      const size_t end = name.rfind('_');
+      const bool numbered = end != std::string::npos && name.size() >= end + 4 &&
+                            name.find_first_not_of("0123456789", end + 1) == std::string::npos;
+      return taken.contains(name) || (numbered && taken.contains(name.substr(0, end)));
+    };
+    while (is_taken()) name = base + "-" + std::to_string(++count[base]);
+    taken.insert(name);
     item.name = name;
   }
 }
@@ -128,6 +152,9 @@ void AddSource(const core::JsonField& source, const fs::path& folder, FactoryPla
   const int named = static_cast<int>(source.Has("library")) +
                     static_cast<int>(source.Has("photos")) + static_cast<int>(source.Has("files"));
   if (named != 1) source.Fail("must have one of library, photos and files");
+  if (source.Has("count") && !source.Has("library")) {
+    source["count"].Fail("belongs to library; all photos and files are taken");
+  }
   if (source.Has("library")) {
     const std::vector<std::string> kinds = source["library"].Texts();
     if (kinds.empty()) source["library"].Fail("names no kind");
@@ -158,7 +185,7 @@ void AddSource(const core::JsonField& source, const fs::path& folder, FactoryPla
 FactoryPlan PlanOfTheme(const FactoryThemeRequest& request, core::Findings* findings) {
   if (request.assets < 1 || request.assets > kMostAssets || request.tasks < 0 ||
       request.tasks > kMostTasks || request.variants < 0 || request.variants > kMostVariants) {
-    throw core::Error("a factory makes 1 to 100000 assets and at most 1000000 tasks",
+    throw core::Error("a factory makes 1 to 100000 assets, up to 10000 tasks and 1000 variants",
                       request.theme);
   }
   const int asked =
@@ -236,6 +263,9 @@ FactoryPlan ReadFactoryPlan(const fs::path& file, core::Findings* findings) {
     request.variants = number("variants", kMostVariants, 0);
     request.seed = seed;
     return PlanOfTheme(request, findings);
+  }
+  for (const char* of_themes : {"assets", "variants"}) {
+    if (root.Has(of_themes)) root[of_themes].Fail("belongs to a theme; sources have their own");
   }
   FactoryPlan plan;
   plan.seed = seed;

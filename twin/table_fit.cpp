@@ -318,6 +318,12 @@ TableFit MovedToCamera(const TableFit& fit, const core::Camera& before, const co
   return moved;
 }
 
+void CompareOnTable(const ObservedObject& object, const core::Camera& camera, TableFit* fit) {
+  core::Camera crop = object.CropCamera(camera);
+  crop.world_from_camera = fit->pose.WorldFromObject().inverse() * camera.world_from_camera;
+  fit->agreement = library_fit::CompareWithPhoto(InstanceMesh(fit->instance), crop, object.target);
+}
+
 void RefineOnTable(const library_fit::LibraryPrior& prior, const ObservedObject& object,
                    const core::Camera& camera, const TableFitOptions& options, TableFit* fit) {
   std::string error;

@@ -52,6 +52,9 @@ std::vector<TableFit> FitOnTable(const library_fit::LibraryPrior& prior,
 // `after` as it has in those of `before`.
 TableFit MovedToCamera(const TableFit& fit, const core::Camera& before, const core::Camera& after);
 
+// Compares a fit with the photo again, after its pose, its size or the camera changed.
+void CompareOnTable(const ObservedObject& object, const core::Camera& camera, TableFit* fit);
+
 // Refines a fit from where it is: pose, sizes and continuous choices.
 void RefineOnTable(const library_fit::LibraryPrior& prior, const ObservedObject& object,
                    const core::Camera& camera, const TableFitOptions& options, TableFit* fit);

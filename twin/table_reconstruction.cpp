@@ -135,16 +135,17 @@ TableReconstruction ReconstructTable(const core::Image& photo, const Detections&
     object.fit = alternatives[k][static_cast<size_t>(scale.choice[k])];
     ScaleLengths(factor, &object.fit);
     object.hidden = observed[k].hidden;
-    const double agreement = std::clamp(
-        (object.fit.agreement.iou - kWorstAgreement) / (1.0 - kWorstAgreement), 0.0, 1.0);
-    object.confidence =
-        detections.objects[k].confidence * agreement * std::sqrt(object.fit.probability);
     table.objects.push_back(std::move(object));
   }
   RefineTogether(detections, guess, &table);
   const core::Camera camera = table.camera.At(width, height);
   for (size_t k = 0; k < table.objects.size(); ++k) {
     ReconstructedObject& object = table.objects[k];
+    CompareOnTable(observed[k], camera, &object.fit);
+    const double agreement = std::clamp(
+        (object.fit.agreement.iou - kWorstAgreement) / (1.0 - kWorstAgreement), 0.0, 1.0);
+    object.confidence =
+        detections.objects[k].confidence * agreement * std::sqrt(object.fit.probability);
     const PoseUncertainty uncertainty =
         UncertaintyOf(object.fit, observed[k].box, camera, object.hidden, table.log_scale_error);
     object.position_error = uncertainty.position;

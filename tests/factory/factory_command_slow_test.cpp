@@ -13,6 +13,7 @@
 #include "factory/factory_plan.h"
 #include "factory/factory_record.h"
 #include "tasks/task_file.h"
+#include "tasks/task_names.h"
 #include "tests/workflows/program.h"
 #include "tests/workflows/running_program.h"
 
@@ -107,6 +108,10 @@ TEST(FactoryCommand, IsSharedByWorkers) {
   const core::Json json = core::ParseJson(second.text, "stdout");
   EXPECT_EQ(json["made"], 8);
   EXPECT_EQ(Records(output), 8u);
+  // Both ended, and each says that all is made.
+  EXPECT_TRUE(first.WaitFor([&] {
+    return core::ReadFile(folder.path() / "log").find("\"made\": 8") != std::string::npos;
+  }));
 }
 
 TEST(FactoryCommand, RefusesWrongPlans) {
@@ -127,6 +132,9 @@ TEST(FactoryCommand, RefusesWrongPlans) {
   EXPECT_NE(refusal(R"({"sources": [{"library": ["mug"], "cuont": 3}]})").find("cuont"),
             std::string::npos);
   EXPECT_NE(refusal(R"({"theme": "kitchen", "sources": []})").find("either"), std::string::npos);
+  EXPECT_NE(refusal(R"({"variants": 2, "sources": [{"library": ["mug"]}]})").find("variants"),
+            std::string::npos);
+  EXPECT_EQ(RunProgram("factory plan.json --assets 3 -o made").code, 2);
   EXPECT_NE(refusal("{\"sources\": [").find("plan.json"), std::string::npos);
   EXPECT_EQ(RunProgram("factory --theme xyzzyq -o " + (folder.path() / "made").string()).code, 1);
   EXPECT_EQ(RunProgram("factory --resume -o " + (folder.path() / "made").string()).code, 1);
@@ -160,6 +168,26 @@ TEST(FactoryPlan, OfAThemeHasDistinctAssetsAndSomeWithJoints) {
   const core::TemporaryFolder folder;
   core::WriteFile(folder.path() / "plan.json", PlanText(plan));
   EXPECT_EQ(PlanText(ReadPlanText(folder.path() / "plan.json")), PlanText(plan));
+}
+
+// Names are those that tasks accept, and none is that of a texture variant of another asset.
+TEST(FactoryPlan, NamesFilesForTasks) {
+  const core::TemporaryFolder folder;
+  fs::create_directories(folder.path() / "meshes");
+  for (const char* name : {"001", "chair", "chair_000", "a b c"}) {
+    core::WriteFile(folder.path() / "meshes" / (std::string(name) + ".obj"),
+                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  }
+  core::WriteFile(folder.path() / "plan.json", R"({"sources": [{"files": "meshes"}]})");
+  core::Findings findings;
+  const FactoryPlan plan = ReadFactoryPlan(folder.path() / "plan.json", &findings);
+  ASSERT_EQ(plan.items.size(), 4u);
+  std::set<std::string> names;
+  for (const FactoryItem& item : plan.items) {
+    EXPECT_TRUE(tasks::IsAssetName(item.name)) << item.name;
+    EXPECT_TRUE(names.insert(item.name).second) << item.name;
+  }
+  EXPECT_FALSE(names.contains("chair_000"));
 }
 
 TEST(AssetRecord, IsReadAsWritten) {

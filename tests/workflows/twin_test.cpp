@@ -119,10 +119,28 @@ TEST(ReadTwinObjects, TakesBoxesCategoriesAndMasks) {
         R"({"objects": [{"box": [500, 5, 600, 20]}]})",
         R"({"objects": [{"box": [1, 2, 50, 60], "category": "zzyx"}]})",
         R"({"objects": [{"box": [1, 2, 50, 60], "mask": "../mask.png"}]})",
-        R"({"objects": [{"bax": [1, 2, 50, 60]}]})", R"({"things": []})", "{"}) {
+        R"({"objects": [{"box": [1, 2, 3, 60]}]})", R"({"objects": [{"bax": [1, 2, 50, 60]}]})",
+        R"({"things": []})", "{"}) {
     core::WriteFile(file, bad);
     EXPECT_THROW(ReadTwinObjects(file, photo, 200, 160), core::Error) << bad;
   }
+}
+
+TEST(LimitDetections, KeepsTheLargestWithTheirKinds) {
+  TwinDetections detections;
+  for (const double side : {5.0, 50.0, 20.0}) {
+    twin::Detection detection;
+    detection.box = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(side)};
+    detections.found.objects.push_back(detection);
+    detections.kinds.push_back({static_cast<int>(side)});
+  }
+  core::Findings findings;
+  LimitDetections(2, &detections, &findings);
+  EXPECT_EQ(detections.kinds, (std::vector<std::vector<int>>{{50}, {20}}));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].code, "twin-many-objects");
+  LimitDetections(2, &detections, &findings);
+  EXPECT_EQ(findings.size(), 1u);
 }
 
 // The whole way, with a known camera and the objects' masks: a scene that stands, in metres, that

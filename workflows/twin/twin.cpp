@@ -76,6 +76,9 @@ TwinDetections DetectObjects(const TwinRequest& request, const TwinPhoto& photo,
   const fs::path weights =
       request.detector.empty() ? DetectorWeights(ModelsFolder()) : request.detector;
   const bool has_weights = fs::exists(weights);
+  if (!request.detector.empty() && !has_weights && request.objects.empty()) {
+    throw core::Error("no such weights of a detector", weights.string());
+  }
   if (!request.objects.empty()) {
     TwinDetections stated = ReadTwinObjects(request.objects, photo.rgb, photo.width, photo.height);
     if (has_weights) {
@@ -186,7 +189,7 @@ TwinOutcome MakeTwin(const TwinRequest& request, core::Progress* progress) {
                       "take it from above so that the whole table top shows, in even light, or "
                       "give boxes with --objects");
   }
-  LimitDetections(request.most_objects, &detected.found, &outcome.findings);
+  LimitDetections(request.most_objects, &detected, &outcome.findings);
   StateCamera(request.camera, photo, &detected.found.camera, &outcome.findings);
   const library_fit::LibraryPrior prior(LibraryWeights(ModelsFolder()));
   twin::TableReconstructionOptions options;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include "asset_lift/segmentation/box_matte.h"
@@ -16,6 +17,8 @@ namespace {
 
 constexpr std::uint64_t kMostObjectsBytes = 1u << 20;
 constexpr int kMaskInside = 128;
+constexpr size_t kMostStated = 100;
+constexpr double kLeastBoxPixels = 4.0;
 
 Eigen::AlignedBox2d BoxOfMask(const core::Image& mask) {
   Eigen::AlignedBox2d box;
@@ -44,6 +47,26 @@ core::Image ReadMask(const core::JsonField& field, const fs::path& folder,
   return mask;
 }
 
+// Keeps the largest boxes, in their order, with their kinds.
+void KeepLargest(size_t most, TwinDetections* detections) {
+  std::vector<twin::Detection>& objects = detections->found.objects;
+  std::vector<size_t> order(objects.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return objects[a].box.volume() > objects[b].box.volume();
+  });
+  order.resize(std::min(most, order.size()));
+  std::sort(order.begin(), order.end());
+  std::vector<twin::Detection> kept;
+  std::vector<std::vector<int>> kinds;
+  for (const size_t index : order) {
+    kept.push_back(std::move(objects[index]));
+    if (index < detections->kinds.size()) kinds.push_back(detections->kinds[index]);
+  }
+  objects = std::move(kept);
+  detections->kinds = std::move(kinds);
+}
+
 }  // namespace
 
 TwinDetections ReadTwinObjects(const fs::path& file, const core::Image& photo, int width,
@@ -53,7 +76,10 @@ TwinDetections ReadTwinObjects(const fs::path& file, const core::Image& photo, i
   detections.found.camera = twin::TableCameraGuess();
   const double sx = static_cast<double>(photo.width) / width;
   const double sy = static_cast<double>(photo.height) / height;
-  for (const core::JsonField& object : document.root()["objects"].Elements()) {
+  const std::vector<core::JsonField> objects = document.root()["objects"].Elements();
+  if (objects.size() > kMostStated)
+    document.root()["objects"].Fail("must list at most 100 objects");
+  for (const core::JsonField& object : objects) {
     object.RequireMembers({"box"}, {"category", "mask"});
     const Eigen::Vector4d box = object["box"].Vector<4>();
     if (!(box[0] < box[2]) || !(box[1] < box[3]) || box[2] <= 0.0 || box[3] <= 0.0 ||
@@ -86,14 +112,15 @@ TwinDetections ReadTwinObjects(const fs::path& file, const core::Image& photo, i
   return detections;
 }
 
-void LimitDetections(int most, twin::Detections* found, core::Findings* findings) {
+void LimitDetections(int most, TwinDetections* detections, core::Findings* findings) {
+  twin::Detections* found = &detections->found;
   const int count = static_cast<int>(found->objects.size());
   if (count > most) {
+    KeepLargest(static_cast<size_t>(most), detections);
     findings->push_back({"twin-many-objects", core::Severity::kWarning, "",
                          std::to_string(count) + " objects are detected; the " +
                              std::to_string(most) + " largest are rebuilt",
                          static_cast<double>(count), "--most-objects takes more"});
-    found->objects.resize(static_cast<size_t>(most));
   }
   const auto cut = std::count_if(found->objects.begin(), found->objects.end(),
                                  [](const twin::Detection& object) { return object.cut; });

@@ -25,6 +25,6 @@ TwinDetections ReadTwinObjects(const std::filesystem::path& file, const core::Im
 
 // Keeps the `most` largest detections, with a finding about the others, and reports those that the
 // photo's border cuts off.
-void LimitDetections(int most, twin::Detections* found, core::Findings* findings);
+void LimitDetections(int most, TwinDetections* detections, core::Findings* findings);
 
 }  // namespace simwright::workflows

@@ -97,7 +97,7 @@ std::string TwinJson(const TwinRecord& record) {
   json["penetration"] = record.penetration;
   json["objects"] = core::OrderedJson::array();
   for (const TwinObject& object : record.objects) json["objects"].push_back(ObjectJson(object));
-  return core::JsonText(json);
+  return core::JsonText(json, core::InvalidUtf8::kReplace);
 }
 
 TwinRecord ReadTwin(const fs::path& folder) {
