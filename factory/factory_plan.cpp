@@ -117,6 +117,24 @@ std::string TaskAssetName(const std::string& name) {
   return tasks::IsAssetName(safe) ? safe : "asset_" + safe;
 }
 
+// Returns the name of the asset whose texture variant has this name, NAME_NNN; "" if it is none's.
+std::string VariantOf(const std::string& name) {
+  const size_t end = name.rfind('_');
+  const bool numbered = end != std::string::npos && name.size() >= end + 4 &&
+                        name.find_first_not_of("0123456789", end + 1) == std::string::npos;
+  return numbered ? name.substr(0, end) : "";
+}
+
+// Returns true if an asset has the name, or a variant of one of both assets would have the other's.
+bool Clashes(const std::string& name, const std::set<std::string>& taken) {
+  if (taken.contains(name) || taken.contains(VariantOf(name))) return true;
+  for (auto other = taken.lower_bound(name + "_");
+       other != taken.end() && other->rfind(name + "_", 0) == 0; ++other) {
+    if (VariantOf(*other) == name) return true;
+  }
+  return false;
+}
+
 // Gives items valid and distinct names; none is that of another's texture variant, NAME_NNN.
 void MakeNamesDistinct(FactoryPlan* plan) {
   std::map<std::string, int> count;
@@ -124,13 +142,7 @@ void MakeNamesDistinct(FactoryPlan* plan) {
   for (FactoryItem& item : plan->items) {
     const std::string base = TaskAssetName(item.name);
     std::string name = base;
-    const auto is_taken = [&] {
-      const size_t end = name.rfind('_');
-      const bool numbered = end != std::string::npos && name.size() >= end + 4 &&
-                            name.find_first_not_of("0123456789", end + 1) == std::string::npos;
-      return taken.contains(name) || (numbered && taken.contains(name.substr(0, end)));
-    };
-    while (is_taken()) name = base + "-" + std::to_string(++count[base]);
+    while (Clashes(name, taken)) name = base + "-" + std::to_string(++count[base]);
     taken.insert(name);
     item.name = name;
   }
