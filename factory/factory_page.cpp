@@ -170,8 +170,9 @@ std::string FactoryPage(const FactoryPlan& plan, const FactoryState& state,
       data::factory_page_html(),
       {{"state", line},
        {"bars", core::Markup{bars}},
-       {"refresh",
-        core::Markup{worker.running ? "<meta http-equiv=\"refresh\" content=\"4\"/>" : ""}},
+       {"refresh", core::Markup{worker.stage != WorkerStage::kFinished
+                                    ? "<meta http-equiv=\"refresh\" content=\"4\"/>"
+                                    : ""}},
        {"variants",
         state.variants() > 0 ? std::to_string(state.variants()) + " texture variants. " : ""},
        {"tasks", TasksText(state)},
