@@ -137,6 +137,13 @@ bool IsDark(const cv::Vec3b& color) {
 
 }  // namespace
 
+int CharactersWithoutGlyph(const std::string& text) {
+  return static_cast<int>(std::count_if(text.begin(), text.end(), [](unsigned char c) {
+    const bool continues = (c & 0xc0) == 0x80;  // a further byte of a character
+    return c < 0x20 || (c > 0x7e && !continues);
+  }));
+}
+
 core::Image DrawPrint(const PrintDesign& design, core::Rng* rng) {
   const int w = design.width, h = design.height;
   cv::Mat picture(h, w, CV_8UC3);
