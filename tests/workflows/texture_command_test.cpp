@@ -195,6 +195,9 @@ TEST(Texturing, PaintsOverAGenerator) {
       for (std::size_t i = 1; i < picture.pixels.size(); i += 3) picture.pixels[i] = 200;
       return picture;
     }
+    core::Findings TakeFindings() override {
+      return {{"image-depth-unused", core::Severity::kWarning, "green", "it takes no depth"}};
+    }
   };
   const core::TemporaryFolder folder;
   TextureRequest request;
@@ -202,11 +205,16 @@ TEST(Texturing, PaintsOverAGenerator) {
   request.prompt = "a green bowl";
   request.generator = std::make_shared<Green>();
   request.size = 128;
+  request.variants = 2;
   request.output = folder.path() / "out";
   core::Progress silent;
   const TextureReport report = TextureAsset(request, &silent);
   EXPECT_LT(report.variants[0].unseen_share, 0.2);
-  EXPECT_TRUE(report.findings.empty());
+  // The generator tells it for each variant, the report once.
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_EQ(report.findings[0].code, "image-depth-unused");
+  const std::string written = core::ReadFile(report.variants[0].folder / "asset.json");
+  EXPECT_NE(written.find("image-depth-unused"), std::string::npos);
   const core::Image texture = assets::ReadAsset(report.variants[0].folder).visual.textures[0];
   for (std::size_t i = 0; i < texture.pixels.size(); i += 3) {
     ASSERT_EQ(texture.pixels[i], 0);
