@@ -273,6 +273,15 @@ bool FollowsTheWhole(texture::Substance substance) {
   }
 }
 
+void ReportUndrawnText(const std::string& text, core::Findings* findings) {
+  const int count = texture::CharactersWithoutGlyph(text);
+  if (count == 0) return;
+  findings->push_back(
+      {"texture-text-undrawn", core::Severity::kWarning, "--prompt",
+       "the font of prints lacks characters of '" + text + "', which are printed as question marks",
+       static_cast<double>(count), "write it with letters, digits and signs of ASCII"});
+}
+
 }  // namespace
 
 texture::LookWords ReadAssetWords(const std::string& prompt, const AssetSurfaces& asset,
@@ -294,6 +303,7 @@ texture::LookWords ReadAssetWords(const std::string& prompt, const AssetSurfaces
          "name materials, colours, patterns and finishes, or give an image generator"});
   }
   for (const texture::LookClause& clause : words.clauses) {
+    ReportUndrawnText(clause.text, findings);
     if (IsRegion(clause.target) || clause.empty()) continue;
     bool is_there = std::any_of(asset.slots.begin(), asset.slots.end(),
                                 [&](const LookSlot& slot) { return IsNamed(slot, clause.target); });

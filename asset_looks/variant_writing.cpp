@@ -59,6 +59,11 @@ core::OrderedJson ReadJson(const fs::path& file) {
   return core::ParseOrderedJson(core::ReadFile(file, kMaxJsonBytes), file.string());
 }
 
+// Prompts and names may contain invalid UTF-8.
+void WriteJson(const fs::path& file, const core::OrderedJson& json) {
+  core::WriteFile(file, core::JsonText(json, core::InvalidUtf8::kReplace));
+}
+
 // Copies what the writer of assets knows nothing of: grasps, certificates, members of asset.json.
 void CopyTheRest(const fs::path& source, const fs::path& folder, const core::OrderedJson& record) {
   static const std::set<std::string> kLooks = {"materials", "appearances", "texture"};
@@ -68,7 +73,7 @@ void CopyTheRest(const fs::path& source, const fs::path& folder, const core::Ord
     if (!json.contains(key) && !kLooks.contains(key)) json[key] = value;
   }
   json["texture"] = record;
-  core::WriteFile(folder / "asset.json", core::JsonText(json));
+  WriteJson(folder / "asset.json", json);
   for (const auto& entry : fs::directory_iterator(source)) {
     const std::string name = entry.path().filename().string();
     const bool is_grasp = name.starts_with("grasps");
@@ -125,27 +130,26 @@ core::Image WriteVariant(const AssetSurfaces& asset, const std::vector<texture::
   return view;
 }
 
-void WriteAppearances(const std::vector<texture::MaterialMaps>& appearances,
-                      const std::vector<core::OrderedJson>& records, const fs::path& folder) {
+core::OrderedJson WriteAppearance(const texture::MaterialMaps& maps, std::size_t index,
+                                  const core::OrderedJson& record, const fs::path& folder) {
+  core::OrderedJson entry;
+  const auto write = [&](const char* role, const core::Image& image) {
+    const std::string file = AppearanceName(index, role);
+    core::WritePng(folder / file, image);
+    entry[std::string(role) + "_map"] = file;
+  };
+  write("base_color", maps.color);
+  write("roughness", maps.roughness);
+  write("normal", maps.normal);
+  if (maps.any_metal) write("metallic", maps.metallic);
+  entry["texture"] = record;
+  return entry;
+}
+
+void AddAppearances(const std::vector<core::OrderedJson>& entries, const fs::path& folder) {
   core::OrderedJson json = ReadJson(folder / "asset.json");
-  core::OrderedJson list = core::OrderedJson::array();
-  for (std::size_t i = 0; i < appearances.size(); ++i) {
-    const texture::MaterialMaps& maps = appearances[i];
-    core::OrderedJson entry;
-    const auto write = [&](const char* role, const core::Image& image) {
-      const std::string file = AppearanceName(i, role);
-      core::WritePng(folder / file, image);
-      entry[std::string(role) + "_map"] = file;
-    };
-    write("base_color", maps.color);
-    write("roughness", maps.roughness);
-    write("normal", maps.normal);
-    if (maps.any_metal) write("metallic", maps.metallic);
-    entry["texture"] = records[i];
-    list.push_back(entry);
-  }
-  json["appearances"] = list;
-  core::WriteFile(folder / "asset.json", core::JsonText(json));
+  json["appearances"] = entries;
+  WriteJson(folder / "asset.json", json);
 }
 
 core::Image ViewOf(const AssetSurfaces& asset, const texture::MaterialMaps* maps) {

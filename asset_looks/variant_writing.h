@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -25,11 +26,14 @@ core::Image WriteVariant(const AssetSurfaces& asset, const std::vector<texture::
                          const std::string& name, const core::OrderedJson& record,
                          const std::filesystem::path& source, const std::filesystem::path& folder);
 
-// Adds the maps of further variants to a written folder of a rigid asset: appearance_NNN_*.png, and
-// "appearances" in asset.json, whose first entry is the asset's own look.
-void WriteAppearances(const std::vector<texture::MaterialMaps>& appearances,
-                      const std::vector<core::OrderedJson>& records,
-                      const std::filesystem::path& folder);
+// Writes the maps of variant `index` into the folder of a rigid asset, appearance_NNN_*.png, and
+// returns its entry for AddAppearances.
+core::OrderedJson WriteAppearance(const texture::MaterialMaps& maps, std::size_t index,
+                                  const core::OrderedJson& record,
+                                  const std::filesystem::path& folder);
+// Adds "appearances" to asset.json; the first of the `entries` is the asset's own look.
+void AddAppearances(const std::vector<core::OrderedJson>& entries,
+                    const std::filesystem::path& folder);
 
 // Returns a view of the asset as it is, or of a rigid asset with `maps`, of the size of
 // WriteVariant's.

@@ -165,7 +165,8 @@ void WriteArticulatedAsset(const ArticulatedAsset& asset, const fs::path& folder
                   MjcfSceneText(asset.name, parts, BoundsAtZero(asset)));
   core::WriteFile(folder / (asset.name + ".sdf"), ArticulatedSdfText(asset));
   core::WriteFile(folder / "semantics.txt", SemanticsText(asset));
-  core::WriteFile(folder / "asset.json", core::JsonText(ArticulatedJson(asset)));
+  core::WriteFile(folder / "asset.json",
+                  core::JsonText(ArticulatedJson(asset), core::InvalidUtf8::kReplace));
   core::Log(core::LogLevel::kInfo, "assets", "wrote ", folder, ": ", asset.links.size(), " links, ",
             parts, " collision parts");
 }

@@ -93,7 +93,8 @@ void WriteAsset(const Asset& asset, const std::filesystem::path& folder) {
                   MjcfSceneText(asset.name, static_cast<int>(asset.parts.size()),
                                 core::Bounds(asset.visual.mesh)));
   core::WriteFile(folder / (asset.name + ".sdf"), SdfText(asset));
-  core::WriteFile(folder / "asset.json", core::JsonText(RigidJson(asset)));
+  core::WriteFile(folder / "asset.json",
+                  core::JsonText(RigidJson(asset), core::InvalidUtf8::kReplace));
   core::Log(core::LogLevel::kInfo, "assets", "wrote ", folder, ": ", asset.parts.size(),
             " collision parts, ", asset.inertial.mass, " kg");
 }
@@ -110,7 +111,7 @@ void AddFindings(const std::filesystem::path& folder, const core::Findings& find
   for (const core::OrderedJson& finding : core::StoredFindingsJson(findings)) {
     if (std::find(known.begin(), known.end(), finding) == known.end()) known.push_back(finding);
   }
-  core::WriteFile(file, core::JsonText(json));
+  core::WriteFile(file, core::JsonText(json, core::InvalidUtf8::kReplace));
 }
 
 Asset ReadAsset(const std::filesystem::path& folder) {

@@ -193,7 +193,7 @@ void AddPbrLook(const core::TexturedMesh& visual, const PbrLook& look, const std
   for (std::size_t m = 0; m < stated.materials.size(); ++m) {
     json["materials"].push_back(WriteMaterial(visual, stated, m, folder));
   }
-  core::WriteFile(file, core::JsonText(json));
+  core::WriteFile(file, core::JsonText(json, core::InvalidUtf8::kReplace));
   AddToMtl(stated, folder / "visual.mtl");
   AddToMjcf(visual, stated, name, folder / (name + ".xml"));
   if (stated.materials.size() == 1) AddToSdf(visual, stated, folder / (name + ".sdf"));

@@ -29,16 +29,21 @@ int ProposeCategories(const ProposeFlags& flags, const CommonOptions& common) {
   core::Progress progress(common.ProgressStyle());
   const proposals::ProposalReport report = proposals::Propose(request, &progress);
   progress.Finish();
+  const int code = report.interrupted ? kInterrupted : 0;
+  if (report.interrupted) {
+    std::fprintf(stderr, "error: stopped; %d pictures so far are kept in %s\n",
+                 report.kept() + report.refused(), report.output.c_str());
+  }
   if (common.json) {
     PrintJson(proposals::ProposalJson(request, report), report.findings);
-    return 0;
+    return code;
   }
   if (!common.quiet) std::fputs(proposals::ProposalTable(report).c_str(), stdout);
   PrintFindings(report.findings, common);
   if (model != nullptr && !common.quiet) std::printf("%s\n", UsageLine(model->usage()).c_str());
   std::printf("%zu categories, %d pictures kept, %d refused: %s\n", report.proposals.size(),
               report.kept(), report.refused(), (report.output / "proposals.json").c_str());
-  return 0;
+  return code;
 }
 
 }  // namespace

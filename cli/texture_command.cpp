@@ -31,7 +31,10 @@ int Texture(const TextureFlags& flags, const CommonOptions& common) {
     PrintFindings(report.findings, common);
     std::fputs(workflows::TextureTable(report).c_str(), stdout);
   }
-  return 0;
+  if (!report.interrupted) return 0;
+  std::fprintf(stderr, "error: stopped; %zu of %d variants are finished and kept in %s\n",
+               report.variants.size(), request.variants, request.output.c_str());
+  return kInterrupted;
 }
 
 }  // namespace

@@ -122,8 +122,9 @@ void MakeVariants(const FactoryItem& item, const FactoryFolder& folder,
   request.force = true;
   core::Progress silent;
   try {
-    for (const workflows::TextureVariant& variant :
-         workflows::TextureAsset(request, &silent).variants) {
+    const workflows::TextureReport report = workflows::TextureAsset(request, &silent);
+    if (report.interrupted) throw core::Cancelled();  // the asset is made again with --resume
+    for (const workflows::TextureVariant& variant : report.variants) {
       record->variants.push_back("assets/" + variant.folder.filename().string());
     }
   } catch (const core::Error& error) {

@@ -1,10 +1,13 @@
 #include "llm/http_client.h"
 
+#include <arpa/inet.h>
 #include <curl/curl.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 
 #include "core/error.h"
@@ -226,6 +229,22 @@ HttpReply Request(const std::string& url, const std::vector<std::string>& header
   return reply;
 }
 
+// Returns true for 127.0.0.0/8 and for 0.0.0.0, which reaches this machine too.
+bool IsLoopbackV4(const std::uint8_t* bytes) {
+  return bytes[0] == 127 || std::all_of(bytes, bytes + 4, [](std::uint8_t b) { return b == 0; });
+}
+
+// Returns true for ::1, for ::, and for an IPv4 address of this machine in IPv6 (::ffff:127.0.0.1).
+bool IsLoopbackV6(const std::array<std::uint8_t, 16>& bytes) {
+  const auto zeros = [&](std::size_t count) {
+    return std::all_of(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count),
+                       [](std::uint8_t b) { return b == 0; });
+  };
+  if (zeros(15)) return bytes[15] <= 1;
+  if (zeros(10) && bytes[10] == 0xff && bytes[11] == 0xff) return IsLoopbackV4(&bytes[12]);
+  return false;
+}
+
 }  // namespace
 
 UrlParts SplitUrl(const std::string& url, const UrlRole& role) {
@@ -278,8 +297,16 @@ std::string ShownUrl(const std::string& url) {
 }
 
 bool IsLoopback(const std::string& host) {
-  return host == "localhost" || host.ends_with(".localhost") || host == "[::1]" ||
-         host.rfind("127.", 0) == 0;
+  std::string name = LowerCaseHeader(host);
+  if (name.ends_with('.')) name.pop_back();
+  std::array<std::uint8_t, 16> bytes{};
+  if (inet_pton(AF_INET, name.c_str(), bytes.data()) == 1) return IsLoopbackV4(bytes.data());
+  if (name.starts_with('[') && name.ends_with(']')) {
+    name =
+        name.substr(1, name.find('%') == std::string::npos ? name.size() - 2 : name.find('%') - 1);
+    return inet_pton(AF_INET6, name.c_str(), bytes.data()) == 1 && IsLoopbackV6(bytes);
+  }
+  return name == "localhost" || name.ends_with(".localhost");
 }
 
 HttpReply HttpPost(const std::string& url, const std::vector<std::string>& headers,

@@ -34,7 +34,9 @@ std::string OriginOf(const std::string& url);
 // Returns the address without user, password, query and fragment, and without the scheme's default
 // port, for messages.
 std::string ShownUrl(const std::string& url);
-// Returns true for the host of an address on this machine: localhost, 127.x.x.x or [::1].
+// Returns true for the host, as SplitUrl gives it, of an address on this machine: localhost and
+// names below it, 127.0.0.0/8, 0.0.0.0, [::1], [::] and these IPv4 addresses within IPv6. Names are
+// not resolved.
 bool IsLoopback(const std::string& host);
 
 struct HttpLimits {

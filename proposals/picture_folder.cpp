@@ -62,8 +62,13 @@ PictureFolder ReadPictureFolder(const fs::path& folder) {
   std::error_code code;
   for (const auto& entry : fs::directory_iterator(folder, code)) {
     if (entry.is_symlink(code) || !entry.is_directory(code)) continue;
-    const std::string category = SafeCategory(entry.path().filename().string());
-    if (!category.empty()) visit(entry.path(), category);
+    const std::string name = entry.path().filename().string();
+    const std::string category = SafeCategory(name);
+    if (!category.empty()) {
+      visit(entry.path(), category);
+    } else if (name.front() != '.') {
+      ++pictures.unnamed_folders;
+    }
   }
   for (auto& [category, files] : pictures.by_category) std::sort(files.begin(), files.end());
   return pictures;

@@ -12,7 +12,8 @@ namespace simwright::proposals {
 // are left out.
 struct PictureFolder {
   std::map<std::string, std::vector<std::filesystem::path>> by_category;
-  int unnamed = 0;  // pictures whose name is no category
+  int unnamed = 0;          // pictures whose name is no category
+  int unnamed_folders = 0;  // folders whose name is no category; hidden ones do not count
 };
 
 // Throws core::Error unless `folder` is a folder with at most 100,000 entries.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -58,14 +59,7 @@ class PictureCollector {
     report_.proposals.insert(first_without, added.begin(), added.end());
     const auto room = static_cast<std::size_t>(request_.count);
     if (report_.proposals.size() > room) report_.proposals.resize(room);
-    if (given_.unnamed > 0) {
-      report_.findings.push_back({"pictures-unnamed", core::Severity::kWarning,
-                                  request_.images.string(),
-                                  std::to_string(given_.unnamed) +
-                                      " pictures have no category in their name and are not used",
-                                  static_cast<double>(given_.unnamed),
-                                  "name them mug_1.jpg, or put them into a folder mug"});
-    }
+    ReportUnused();
   }
 
   void Collect(Proposal* proposal) {
@@ -91,8 +85,40 @@ class PictureCollector {
 
   // The thumbnails of the contact sheet.
   const std::vector<core::Image>& thumbnails() const { return thumbnails_; }
+  int fetched() const { return fetched_; }  // pictures in the folder
 
  private:
+  // Reports what of the folder of pictures is not used.
+  void ReportUnused() {
+    std::size_t used = 0, surplus = 0;
+    for (const Proposal& proposal : report_.proposals) {
+      const auto found = given_.by_category.find(proposal.category.category);
+      if (found == given_.by_category.end()) continue;
+      ++used;
+      const auto wanted = static_cast<std::size_t>(request_.pictures);
+      surplus += std::max(found->second.size(), wanted) - wanted;
+    }
+    Report("pictures-unnamed", given_.unnamed,
+           " pictures have no category in their name and are not used",
+           "name them mug_1.jpg, or put them into a folder mug");
+    Report("pictures-folders-unnamed", given_.unnamed_folders,
+           " folders have names that are no category, and their pictures are not used",
+           "name a folder by its category in one to four English words");
+    Report("pictures-categories-left-out", static_cast<int>(given_.by_category.size() - used),
+           " categories of the folder are not used, since --count allows no more", "raise --count");
+    Report("pictures-left-out", static_cast<int>(surplus),
+           " pictures are not used, since --pictures allows no more of a category",
+           "raise --pictures");
+  }
+
+  // Adds a warning about `count` things unless there are none.
+  void Report(const char* code, int count, const char* sentence, const char* remedy) {
+    if (count == 0) return;
+    report_.findings.push_back({code, core::Severity::kWarning, request_.images.string(),
+                                std::to_string(count) + sentence, static_cast<double>(count),
+                                remedy});
+  }
+
   void Fetch(int number, Proposal* proposal) {
     if (failures_ == kFailuresInARow) return;
     ProposedPicture picture;
@@ -176,6 +202,45 @@ core::OrderedJson PictureJson(const ProposedPicture& picture) {
   return json;
 }
 
+// Collects the pictures of all proposals, and the sheet. Returns the message of the error that
+// ended the work after the first picture, or ""; without a picture the error is thrown.
+std::string CollectPictures(const ProposalRequest& request, const fs::path& folder,
+                            ProposalReport* report, core::Progress* progress) {
+  PictureCollector collector(request, folder, report);
+  std::string fault;
+  std::size_t done = 0;
+  try {
+    if (!request.images.empty()) collector.AddGivenCategories();
+    progress->Stage("pictures", static_cast<int>(report->proposals.size()));
+    for (Proposal& proposal : report->proposals) {
+      collector.Collect(&proposal);
+      ++done;
+      progress->Advance();
+    }
+  } catch (const core::Cancelled&) {
+    if (collector.fetched() == 0) throw;
+    report->interrupted = done < report->proposals.size();
+  } catch (const std::exception& error) {
+    if (collector.fetched() == 0) throw;
+    fault = error.what();
+  }
+  if (report->interrupted || !fault.empty()) {
+    report->findings.push_back({"proposals-stopped", core::Severity::kWarning,
+                                report->output.string(),
+                                "the work was stopped before all pictures were there" +
+                                    (fault.empty() ? "" : ": " + fault),
+                                static_cast<double>(collector.fetched())});
+  }
+  if (request.generator != nullptr) {
+    const core::Findings found = request.generator->TakeFindings();
+    report->findings.insert(report->findings.end(), found.begin(), found.end());
+  }
+  if (!collector.thumbnails().empty()) {
+    core::WritePng(folder / "sheet.png", core::ContactSheet(collector.thumbnails(), kSheetColumns));
+  }
+  return fault;
+}
+
 int CountPictures(const ProposalReport& report, bool kept) {
   int count = 0;
   for (const Proposal& proposal : report.proposals) {
@@ -219,25 +284,15 @@ ProposalReport Propose(const ProposalRequest& request, core::Progress* progress)
                                : LanguageModelCategories(request.theme, request.count,
                                                          request.model, &report.findings, progress);
   for (const CategoryProposal& category : categories) report.proposals.push_back({category, {}});
+  std::string stopped;
   if (request.generator != nullptr || !request.images.empty()) {
-    PictureCollector collector(request, staged.staging(), &report);
-    if (!request.images.empty()) collector.AddGivenCategories();
-    progress->Stage("pictures", static_cast<int>(report.proposals.size()));
-    for (Proposal& proposal : report.proposals) {
-      collector.Collect(&proposal);
-      progress->Advance();
-    }
-    if (request.generator != nullptr) {
-      const core::Findings found = request.generator->TakeFindings();
-      report.findings.insert(report.findings.end(), found.begin(), found.end());
-    }
-    if (!collector.thumbnails().empty()) {
-      core::WritePng(staged.staging() / "sheet.png",
-                     core::ContactSheet(collector.thumbnails(), kSheetColumns));
-    }
+    stopped = CollectPictures(request, staged.staging(), &report, progress);
   }
   core::WriteFile(staged.staging() / "proposals.json", ProposalJson(request, report));
   staged.Commit();
+  if (!stopped.empty()) {
+    throw core::Error(stopped, "", "the pictures so far are kept in " + request.output.string());
+  }
   return report;
 }
 

@@ -49,6 +49,7 @@ struct ProposalReport {
   std::vector<Proposal> proposals;
   core::Findings findings;
   std::filesystem::path output;
+  bool interrupted = false;  // Ctrl-C ended the fetching; the folder has what was there
 
   int kept() const;     // pictures
   int refused() const;  // pictures that failed the test
@@ -58,8 +59,11 @@ struct ProposalReport {
 // them to a folder: proposals.json (docs/propose.md), pictures/ and, with pictures, sheet.png, on
 // which refused ones have a red frame. Pictures that fail the test stay, marked as refused. Three
 // failures of the generator in a row end the fetching, with the finding "pictures-ended"; the first
-// one is thrown. Throws core::Error also for an invalid request and as OfflineCategories,
-// LanguageModelCategories and ReadPictureFolder do; throws core::Cancelled.
+// one is thrown. If Ctrl-C or an error ends the work after the first picture, the folder is written
+// with what is there and the finding "proposals-stopped": after Ctrl-C the report is returned as
+// `interrupted`, and an error is thrown. Throws core::Error also for an invalid request and
+// as OfflineCategories, LanguageModelCategories and ReadPictureFolder do; throws core::Cancelled
+// before the first picture.
 ProposalReport Propose(const ProposalRequest& request, core::Progress* progress);
 
 // Formats a table for a terminal, and the report as JSON, which is also proposals.json.

@@ -167,11 +167,16 @@ class ScriptedGenerator final : public texture::ImageGenerator {
     EXPECT_TRUE(request.IsValid(&fault)) << fault;
     requests.push_back(request);
     const int number = static_cast<int>(requests.size());
+    if (number > breaks_after) throw std::runtime_error("out of order");
+    if (number > stops_after) {
+      core::RequestCancel();
+      core::CheckCancelled();
+    }
     if (number > fails_after) throw core::Error("status 500", "scripted");
     return number == 2 ? StudioPicture({"apple", "apple"}, 5.0) : StudioPicture({"apple"});
   }
   std::vector<texture::ImageRequest> requests;
-  int fails_after = 1000;
+  int fails_after = 1000, breaks_after = 1000, stops_after = 1000;
 };
 
 ProposalRequest Wanted(const fs::path& output) {
@@ -231,6 +236,90 @@ TEST(Proposals, AGeneratorThatFailsEndsTheFetching) {
   request.output = folder.path() / "none";
   EXPECT_THROW(Propose(request, &silent), core::Error);
   EXPECT_FALSE(fs::exists(request.output));
+}
+
+TEST(Proposals, WhatWasFetchedStaysAfterAStop) {
+  const core::TemporaryFolder folder;
+  core::Progress silent;
+  ScriptedGenerator generator;
+  generator.stops_after = 3;
+  ProposalRequest request = Wanted(folder.path() / "out");
+  request.generator = &generator;
+  const ProposalReport report = Propose(request, &silent);
+  core::ClearCancelRequest();
+  EXPECT_TRUE(report.interrupted);
+  EXPECT_EQ(report.kept() + report.refused(), 3);
+  const auto written = [](const fs::path& output) {
+    return core::ParseJson(core::ReadFile(output / "proposals.json"), "proposals.json");
+  };
+  const core::Json json = written(request.output);
+  ASSERT_EQ(json["proposals"].size(), 5u);
+  EXPECT_EQ(json["proposals"][2]["pictures"].size(), 1u);
+  EXPECT_TRUE(json["proposals"][3]["pictures"].empty());
+  EXPECT_EQ(json["findings"][0]["code"], "proposals-stopped");
+  EXPECT_EQ(json["findings"][0]["figure"], 3.0);
+  EXPECT_TRUE(fs::exists(request.output / "pictures"));
+  EXPECT_TRUE(fs::exists(request.output / "sheet.png"));
+
+  // A fault that is no failure of the server keeps them too, and is told.
+  ScriptedGenerator broken;
+  broken.breaks_after = 1;
+  request.generator = &broken;
+  request.output = folder.path() / "broken";
+  try {
+    Propose(request, &silent);
+    ADD_FAILURE() << "no error";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("out of order"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("are kept in"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(written(request.output)["kept"], 1);
+
+  // Without a picture nothing is written.
+  ScriptedGenerator early;
+  early.stops_after = 0;
+  request.generator = &early;
+  request.output = folder.path() / "early";
+  EXPECT_THROW(Propose(request, &silent), core::Cancelled);
+  core::ClearCancelRequest();
+  EXPECT_FALSE(fs::exists(request.output));
+}
+
+TEST(Proposals, SaysWhatOfAFolderIsNotUsed) {
+  const core::TemporaryFolder folder;
+  const fs::path images = folder.path() / "images";
+  const core::Image picture(64, 64, 3, 230);
+  for (const char* name :
+       {"mug_1", "mug_2", "mug_3", "bowl_1", "bowl_2", "plate_1", "plate_2", "fork"}) {
+    fs::create_directories(images);
+    core::WritePng(images / (std::string(name) + ".png"), picture);
+  }
+  for (const char* name : {"2024", "things that are of no use", ".hidden"}) {
+    fs::create_directories(images / name);
+  }
+  EXPECT_EQ(ReadPictureFolder(images).unnamed_folders, 2);
+  core::Progress silent;
+  ProposalRequest request = Wanted(folder.path() / "out");
+  request.theme = "kitchen";
+  request.count = 2;
+  request.pictures = 1;
+  request.images = images;
+  const ProposalReport report = Propose(request, &silent);
+  std::map<std::string, double> figures;
+  for (const core::Finding& finding : report.findings) {
+    EXPECT_TRUE(figures.emplace(finding.code, finding.figure).second) << finding.code;
+  }
+  std::map<std::string, int> given = {{"mug", 3}, {"bowl", 2}, {"plate", 2}, {"fork", 1}};
+  int surplus = 0;
+  ASSERT_EQ(report.proposals.size(), 2u);
+  for (const Proposal& proposal : report.proposals) {
+    EXPECT_EQ(proposal.pictures.size(), 1u);
+    surplus += given.at(proposal.category.category) - 1;
+  }
+  EXPECT_EQ(figures["pictures-folders-unnamed"], 2.0);
+  EXPECT_EQ(figures["pictures-categories-left-out"], 2.0);
+  EXPECT_EQ(figures["pictures-left-out"], surplus);
+  EXPECT_GT(surplus, 0);
 }
 
 TEST(Proposals, PicturesAreTakenFromAFolderByCategory) {

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "core/files.h"
+#include "llm/http_client.h"
 
 #include "tests/texture/image_server.h"  // last: see there
 
@@ -409,6 +410,23 @@ TEST(ImageEndpoints, KeysGoToTheirServerOnly) {
       ->Generate(WordsRequest());
   EXPECT_EQ(server.seen().at(0).authorization, std::string("Bearer ") + kImageKey);
   EXPECT_EQ(elsewhere.seen().at(0).authorization, "");
+}
+
+TEST(ImageEndpoints, KnowsTheAddressesOfThisMachine) {
+  const auto is_here = [](const std::string& authority) {
+    return llm::IsLoopback(llm::SplitUrl("http://" + authority + "/a.png").host);
+  };
+  for (const char* here :
+       {"localhost", "LOCALHOST:80", "localhost.", "a.localhost", "127.0.0.1", "127.8.9.10:81",
+        "127.1", "2130706433", "0x7f.1", "0.0.0.0", "0", "[::1]", "[0:0:0:0:0:0:0:1]:80", "[::]",
+        "[::ffff:127.0.0.1]", "[::FFFF:7f00:1]", "[::ffff:0.0.0.0]"}) {
+    EXPECT_TRUE(is_here(here)) << here;
+  }
+  for (const char* elsewhere :
+       {"127.evil.com", "127.0.0.1.evil.com", "localhost.evil.com", "mylocalhost", "128.0.0.1",
+        "0.0.0.1", "192.168.0.1", "[::2]", "[2001:db8::1]", "[::ffff:192.168.0.1]"}) {
+    EXPECT_FALSE(is_here(elsewhere)) << elsewhere;
+  }
 }
 
 TEST(ImageEndpoints, RefusesUnusableOptionsAndRequests) {

@@ -8,6 +8,7 @@
 #include "texture/materials/look_words.h"
 #include "texture/materials/material_bake.h"
 #include "texture/materials/named_materials.h"
+#include "texture/materials/print_design.h"
 #include "texture/painting/exemplar_bake.h"
 #include "texture/painting/perceptual_distance.h"
 #include "texture/painting/seam_step.h"
@@ -343,6 +344,18 @@ TEST(PerceptualDistance, IsZeroForEqualPicturesAndKnowsBlackFromWhite) {
   for (std::uint8_t& value : noisy.pixels) value = static_cast<std::uint8_t>(rng() >> 56);
   EXPECT_GT(ComparePictures(white, noisy).structure, 0.5);
   EXPECT_THROW(ComparePictures(white, core::Image(64, 64, 3)), core::Error);
+}
+
+// Each character beyond ASCII is printed as one question mark, and they are counted.
+TEST(Prints, CountCharactersThatTheFontLacks) {
+  const auto print = [](const std::string& title) {
+    core::Rng rng(3);
+    return DrawPrint({title, "", 300, 200}, &rng).pixels;
+  };
+  EXPECT_EQ(CharactersWithoutGlyph("OAT MILK ~ 100 %"), 0);
+  EXPECT_EQ(CharactersWithoutGlyph("CAF\xc3\x89 \xe8\x8c\xb6"), 2);
+  EXPECT_EQ(print("CAF\xc3\x89 \xe8\x8c\xb6"), print("CAF? ?"));
+  EXPECT_NE(print("CAFE"), print("CAF?"));
 }
 
 }  // namespace

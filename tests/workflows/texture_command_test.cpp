@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/progress.h"
 #include "program.h"
 #include "texture/image_generator.h"
 #include "workflows/texture/texturing.h"
@@ -184,29 +185,49 @@ TEST(TextureCommand, SaysWhatIsWrong) {
   EXPECT_FALSE(fs::exists(folder.path() / "x"));
 }
 
-// An endpoint that paints everything green: words go to it, and its colours arrive.
+// An endpoint that paints everything green, until it asks for a stop.
+class GreenEndpoint : public texture::ImageGenerator {
+ public:
+  std::string name() const override { return "green"; }
+  core::Image Generate(const texture::ImageRequest& request) override {
+    EXPECT_EQ(request.prompt, prompt);
+    if (++calls > stops_after) core::RequestCancel();
+    core::CheckCancelled();
+    core::Image picture(request.camera.width, request.camera.height, 3);
+    for (std::size_t i = 1; i < picture.pixels.size(); i += 3) picture.pixels[i] = 200;
+    return picture;
+  }
+  core::Findings TakeFindings() override {
+    return {{"image-depth-unused", core::Severity::kWarning, "green", "it takes no depth"}};
+  }
+
+  std::string prompt = "a green bowl";
+  int calls = 0, stops_after = 1000;
+};
+
+// Words go to an endpoint, its colours and its findings arrive, and a stop keeps what is finished.
 TEST(Texturing, PaintsOverAGenerator) {
-  class Green : public texture::ImageGenerator {
-   public:
-    std::string name() const override { return "green"; }
-    core::Image Generate(const texture::ImageRequest& request) override {
-      EXPECT_EQ(request.prompt, "a green bowl");
-      core::Image picture(request.camera.width, request.camera.height, 3);
-      for (std::size_t i = 1; i < picture.pixels.size(); i += 3) picture.pixels[i] = 200;
-      return picture;
-    }
-  };
   const core::TemporaryFolder folder;
+  const auto green = std::make_shared<GreenEndpoint>();
   TextureRequest request;
   request.asset = TexturedAssetOf("bowl", folder.path());
-  request.prompt = "a green bowl";
-  request.generator = std::make_shared<Green>();
+  request.prompt = green->prompt;
+  request.generator = green;
   request.size = 128;
+  request.variants = 2;
   request.output = folder.path() / "out";
   core::Progress silent;
   const TextureReport report = TextureAsset(request, &silent);
+  EXPECT_FALSE(report.interrupted);
+  const int views = green->calls / request.variants;
   EXPECT_LT(report.variants[0].unseen_share, 0.2);
-  EXPECT_TRUE(report.findings.empty());
+  // The generator tells it for each variant, the report once.
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_EQ(report.findings[0].code, "image-depth-unused");
+  const auto record = [](const TextureVariant& variant) {
+    return core::ParseJson(core::ReadFile(variant.folder / "asset.json"), "asset.json");
+  };
+  EXPECT_TRUE(HasFinding(record(report.variants[0]), "image-depth-unused"));
   const core::Image texture = assets::ReadAsset(report.variants[0].folder).visual.textures[0];
   for (std::size_t i = 0; i < texture.pixels.size(); i += 3) {
     ASSERT_EQ(texture.pixels[i], 0);
@@ -215,6 +236,27 @@ TEST(Texturing, PaintsOverAGenerator) {
   TextureRequest empty = request;
   empty.prompt.clear();
   EXPECT_THROW(TextureAsset(empty, &silent), core::Error);
+
+  // A stop in the second variant; the prompt is no UTF-8.
+  request.prompt = green->prompt = "a green \xff bowl";
+  green->stops_after = green->calls + views;
+  request.output = folder.path() / "stopped";
+  const TextureReport stopped = TextureAsset(request, &silent);
+  core::ClearCancelRequest();
+  EXPECT_TRUE(stopped.interrupted);
+  ASSERT_EQ(stopped.variants.size(), 1u);
+  EXPECT_EQ(record(stopped.variants[0])["texture"]["prompt"], "a green \xef\xbf\xbd bowl");
+  EXPECT_FALSE(fs::exists(request.output / "bowl_1_001"));
+  EXPECT_TRUE(fs::exists(stopped.sheet));
+  EXPECT_NO_THROW(TextureReportJson(stopped));
+
+  // One folder of all variants is there complete or not at all.
+  request.as_materials = true;
+  green->stops_after = green->calls;
+  request.output = folder.path() / "none";
+  EXPECT_THROW(TextureAsset(request, &silent), core::Cancelled);
+  core::ClearCancelRequest();
+  EXPECT_FALSE(fs::exists(request.output));
 }
 
 }  // namespace

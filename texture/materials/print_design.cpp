@@ -131,11 +131,35 @@ void DrawField(const PrintColors& colors, core::Rng* rng, cv::Mat* picture) {
   }
 }
 
+bool ContinuesCharacter(unsigned char byte) {
+  return (byte & 0xc0) == 0x80;
+}
+
+bool HasGlyph(unsigned char byte) {
+  return byte >= 0x20 && byte <= 0x7e;
+}
+
+// Returns a text (UTF-8) with a question mark for each character that the font lacks.
+std::string WithGlyphs(const std::string& text) {
+  std::string drawn;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (!ContinuesCharacter(byte)) drawn += HasGlyph(byte) ? c : '?';
+  }
+  return drawn;
+}
+
 bool IsDark(const cv::Vec3b& color) {
   return 0.3 * color[0] + 0.6 * color[1] + 0.1 * color[2] < 120;
 }
 
 }  // namespace
+
+int CharactersWithoutGlyph(const std::string& text) {
+  return static_cast<int>(std::count_if(text.begin(), text.end(), [](unsigned char c) {
+    return !ContinuesCharacter(c) && !HasGlyph(c);
+  }));
+}
 
 core::Image DrawPrint(const PrintDesign& design, core::Rng* rng) {
   const int w = design.width, h = design.height;
@@ -151,12 +175,12 @@ core::Image DrawPrint(const PrintDesign& design, core::Rng* rng) {
       picture.at<cv::Vec3b>(static_cast<int>(title_y), static_cast<int>(middle));
   const cv::Scalar light(250, 246, 236);
   const bool bold = core::Uniform(*rng) < 0.5;
-  WriteCentred(design.title, middle, title_y, 0.86 * side, 0.17 * h,
+  WriteCentred(WithGlyphs(design.title), middle, title_y, 0.86 * side, 0.17 * h,
                IsDark(under) ? light : colors.ink,
                bold ? cv::FONT_HERSHEY_DUPLEX : cv::FONT_HERSHEY_TRIPLEX, &picture);
   const cv::Vec3b below =
       picture.at<cv::Vec3b>(static_cast<int>(0.88 * h), static_cast<int>(middle));
-  WriteCentred(design.subtitle, middle, 0.90 * h, 0.4 * side, 0.05 * h,
+  WriteCentred(WithGlyphs(design.subtitle), middle, 0.90 * h, 0.4 * side, 0.05 * h,
                IsDark(below) ? light : colors.ink, cv::FONT_HERSHEY_DUPLEX, &picture);
   if (w > 1.15 * h) {
     // The sides of the label: small print on one, the bar code on the other.

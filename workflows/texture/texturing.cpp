@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <utility>
 
 #include "asset_looks/asset_surfaces.h"
@@ -60,6 +61,22 @@ class Texturing {
     const core::Image original = asset_looks::ViewOf(asset_);
     report_.preparation = core::SecondsSince(start);
     pictures_ = {original};
+    try {
+      MakeVariants();
+    } catch (const core::Cancelled&) {
+      // One folder with all variants appears complete or not at all.
+      if (request_.as_materials || report_.variants.empty()) throw;
+      report_.interrupted = static_cast<int>(report_.variants.size()) < request_.variants;
+      pictures_.resize(1 + report_.variants.size());
+    }
+    if (request_.as_materials) CommitAppearances();
+    progress_->Finish();
+    WriteSheet();
+    return std::move(report_);
+  }
+
+ private:
+  void MakeVariants() {
     // A generator's painting shows the progress of its views.
     if (!generator_) progress_->Stage("texture", request_.variants);
     for (int v = 0; v < request_.variants; ++v) {
@@ -67,13 +84,8 @@ class Texturing {
       MakeVariant(v);
       if (!generator_) progress_->Advance();
     }
-    if (request_.as_materials) WriteAll();
-    progress_->Finish();
-    WriteSheet();
-    return std::move(report_);
   }
 
- private:
   void ReadSources() {
     generator_ = request_.generator;
     if (!request_.prompt.empty() && !generator_) {
@@ -132,6 +144,7 @@ class Texturing {
                                             asset_looks::PlanOf(surface, look)));
       unseen += Paint(surface, look, variant.seed, &maps.back());
     }
+    TakeGeneratorFindings();
     variant.unseen_share = unseen / static_cast<double>(std::max(1, report_.texels));
     for (std::size_t s = 0; s < asset_.slots.size(); ++s) {
       const std::string& slot = asset_.slots[s].material;
@@ -143,13 +156,26 @@ class Texturing {
     variant.materials.erase(std::unique(variant.materials.begin(), variant.materials.end()),
                             variant.materials.end());
     if (request_.as_materials) {
-      Keep(std::move(maps), &variant);
+      AddAppearance(index, maps, &variant);
     } else {
       Write(index, maps, &variant);
     }
     Compare(&variant);
     variant.seconds = core::SecondsSince(start);
     report_.variants.push_back(std::move(variant));
+  }
+
+  // Adds the findings of the generator, each of them once.
+  void TakeGeneratorFindings() {
+    if (!generator_) return;
+    for (core::Finding& finding : generator_->TakeFindings()) {
+      const bool is_known = std::any_of(
+          report_.findings.begin(), report_.findings.end(), [&](const core::Finding& known) {
+            return known.code == finding.code && known.place == finding.place &&
+                   known.sentence == finding.sentence;
+          });
+      if (!is_known) report_.findings.push_back(std::move(finding));
+    }
   }
 
   // Gives the main surfaces the colours of the exemplar, or of the generator where there is one;
@@ -214,21 +240,27 @@ class Texturing {
     staged.Commit();
   }
 
-  void Keep(std::vector<texture::MaterialMaps> maps, TextureVariant* variant) {
+  // Writes the maps of a variant into the one folder, which CommitAppearances completes.
+  void AddAppearance(int index, const std::vector<texture::MaterialMaps>& maps,
+                     TextureVariant* variant) {
     variant->name = asset_.name;
     variant->folder = request_.output / asset_.name;
-    pictures_.push_back(asset_looks::ViewOf(asset_, &maps.front()));
-    records_.push_back(RecordOf(*variant));
-    appearances_.push_back(std::move(maps.front()));
+    const core::OrderedJson record = RecordOf(*variant);
+    if (!staged_) {
+      staged_ = std::make_unique<core::StagedFolder>(variant->folder, request_.force);
+      pictures_.push_back(asset_looks::WriteVariant(asset_, maps, asset_.name, record,
+                                                    request_.asset, staged_->staging()));
+    } else {
+      pictures_.push_back(asset_looks::ViewOf(asset_, &maps.front()));
+    }
+    appearances_.push_back(asset_looks::WriteAppearance(
+        maps.front(), static_cast<std::size_t>(index), record, staged_->staging()));
   }
 
-  void WriteAll() {
-    core::StagedFolder staged(request_.output / asset_.name, request_.force);
-    asset_looks::WriteVariant(asset_, {appearances_.front()}, asset_.name, records_.front(),
-                              request_.asset, staged.staging());
-    asset_looks::WriteAppearances(appearances_, records_, staged.staging());
-    assets::AddFindings(staged.staging(), report_.findings);
-    staged.Commit();
+  void CommitAppearances() {
+    asset_looks::AddAppearances(appearances_, staged_->staging());
+    assets::AddFindings(staged_->staging(), report_.findings);
+    staged_->Commit();
   }
 
   void Compare(TextureVariant* variant) const {
@@ -247,10 +279,10 @@ class Texturing {
   asset_looks::AssetSurfaces asset_;
   texture::LookWords words_;
   std::shared_ptr<texture::ImageGenerator> generator_;
-  texture::Swatch swatch_;             // empty without an exemplar
-  std::vector<core::Image> pictures_;  // of the asset, then of the variants
-  std::vector<texture::MaterialMaps> appearances_;
-  std::vector<core::OrderedJson> records_;
+  texture::Swatch swatch_;                      // empty without an exemplar
+  std::vector<core::Image> pictures_;           // of the asset, then of the variants
+  std::unique_ptr<core::StagedFolder> staged_;  // the one folder of all variants
+  std::vector<core::OrderedJson> appearances_;  // of asset.json
   TextureReport report_;
 };
 
@@ -308,6 +340,7 @@ std::string TextureReportJson(const TextureReport& report) {
   json["texels"] = report.texels;
   json["preparation_s"] = report.preparation;
   json["sheet"] = report.sheet.string();
+  json["interrupted"] = report.interrupted;
   json["variants"] = core::OrderedJson::array();
   for (const TextureVariant& variant : report.variants) {
     core::OrderedJson one;
@@ -321,7 +354,7 @@ std::string TextureReportJson(const TextureReport& report) {
     one["distance_from_first"] = DistanceJson(variant.from_first);
     json["variants"].push_back(one);
   }
-  return core::JsonText(json);
+  return core::JsonText(json, core::InvalidUtf8::kReplace);
 }
 
 }  // namespace simwright::workflows

@@ -49,11 +49,14 @@ struct TextureReport {
   std::filesystem::path sheet;  // the asset and its variants side by side
   int texels = 0;               // that the surface covers, in all textures
   double preparation = 0.0;     // s, of what the variants share
+  bool interrupted = false;     // Ctrl-C ended the work; `variants` are those that are written
   core::Findings findings;
 };
 
 // Textures an asset. Each variant becomes a folder NAME_NNN in `output` (one folder NAME with
-// as_materials), with the geometry, mass and collision parts of the asset. Throws core::Error for a
+// as_materials), with the geometry, mass and collision parts of the asset. After Ctrl-C the
+// finished folders and their sheet are kept and the report is `interrupted`; without any, or with
+// as_materials, nothing is written and core::Cancelled is thrown. Throws core::Error for a
 // wrong request, an existing output, and what readers, generators and writers throw.
 TextureReport TextureAsset(const TextureRequest& request, core::Progress* progress);
 
