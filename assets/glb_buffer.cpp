@@ -102,13 +102,12 @@ std::string GlbBuffer::Glb() const {
     throw core::Error("the model is larger than 4 GiB, the limit of GLB", "",
                       "simplify the mesh or its textures");
   }
-  const auto chunk = [](const std::string& content, const char* type) {
-    return LittleEndian(static_cast<std::uint32_t>(content.size())) + std::string(type, 4) +
-           content;
+  const auto chunk = [](const std::string& content, const std::string& type) {
+    return LittleEndian(static_cast<std::uint32_t>(content.size())) + type + content;
   };
   std::string glb = "glTF" + LittleEndian(2) + LittleEndian(static_cast<std::uint32_t>(size));
   glb += chunk(text, "JSON");
-  if (!binary.empty()) glb += chunk(binary, "BIN\0");
+  if (!binary.empty()) glb += chunk(binary, std::string("BIN") + '\0');
   return glb;
 }
 
