@@ -45,7 +45,7 @@ void AddFactory(CLI::App* app, CommonOptions* common, Run* run) {
       app->add_subcommand("factory", "Make hundreds of assets and tasks from one line");
   command->footer(
       "Examples:\n  simwright factory --theme kitchen --assets 200 --tasks 500 -o kitchen\n"
-      "  simwright factory plan.json -o things\n"
+      "  simwright factory plan.json -o out\n"
       "  simwright factory --resume -o kitchen\n"
       "The dashboard is kitchen/index.html. More workers join with --resume, also on other "
       "machines\n"
@@ -72,7 +72,7 @@ void AddFactory(CLI::App* app, CommonOptions* common, Run* run) {
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command->add_option("-o,--output", request.output, "The factory's folder")->required();
-  command->add_flag("--resume", request.resume, "Go on with the folder's work, or join it");
+  command->add_flag("--resume", request.resume, "Resume the folder's work, or join it");
   AddImageGenerator(command, &flags->generator);
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return Factory(*flags, *common); }; });

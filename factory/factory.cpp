@@ -49,17 +49,17 @@ FactoryPlan SharedPlan(const FactoryRequest& request, const FactoryFolder& folde
   if (fs::exists(folder.plan())) {
     if (!request.resume) {
       throw core::Error("the folder holds a factory", folder.root.string(),
-                        "--resume goes on with it, or joins its workers");
+                        "--resume resumes it, or joins its workers");
     }
     const FactoryPlan present = ReadPlanText(folder.plan());
     if (asked && PlanText(*asked) != PlanText(present)) {
       throw core::Error("the folder holds a factory with another plan", folder.root.string(),
-                        "leave the plan out to go on with it, or choose another folder");
+                        "leave the plan out to resume it, or choose another folder");
     }
     return present;
   }
   if (!asked) {
-    throw core::Error("there is no factory to go on with", folder.root.string(),
+    throw core::Error("there is no factory to resume", folder.root.string(),
                       "give a PLAN or --theme");
   }
   if (fs::exists(folder.root) && !fs::is_empty(folder.root)) {

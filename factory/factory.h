@@ -14,10 +14,10 @@
 namespace simwright::factory {
 
 struct FactoryRequest {
-  std::filesystem::path plan;    // the user's plan; empty: `theme`
-  FactoryThemeRequest theme;     // used if its theme is not empty
-  std::filesystem::path output;  // the factory's folder
-  bool resume = false;           // goes on with, or joins, the work in the folder
+  std::filesystem::path plan;                          // the user's plan; empty: `theme`
+  FactoryThemeRequest theme;                           // used if its theme is not empty
+  std::filesystem::path output;                        // the factory's folder
+  bool resume = false;                                 // resumes, or joins, the work in the folder
   std::shared_ptr<texture::ImageGenerator> generator;  // for texture variants by words
 };
 

@@ -150,7 +150,7 @@ void RequireFreeDisk(const fs::path& folder) {
   const fs::space_info space = fs::space(folder, error);
   if (error || space.available >= kLeastFreeBytes) return;
   throw core::Error("the disk is nearly full: less than 200 MB are free", folder.string(),
-                    "make room and go on with --resume; what is made is kept");
+                    "make room and resume with --resume; finished assets are kept");
 }
 
 AssetRecord MakeFactoryAsset(const FactoryItem& item, const FactoryFolder& folder,

@@ -49,7 +49,7 @@ const char* StageText(WorkerStage stage) {
     case WorkerStage::kRunning:
       return "Running";
     case WorkerStage::kStopped:
-      return "Stopped (--resume goes on)";
+      return "Stopped (resume with --resume)";
     case WorkerStage::kFinished:
       break;
   }

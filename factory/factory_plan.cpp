@@ -228,7 +228,7 @@ FactoryPlan PlanOfTheme(const FactoryThemeRequest& request, core::Findings* find
     throw core::Error("the library has no kind for the theme", request.theme,
                       "see simwright propose --theme");
   }
-  // Proposals are things that a hand moves; tasks also open and fill furniture.
+  // Proposals are objects that a hand moves; tasks also open and fill furniture.
   for (const char* furniture : kFurniture) {
     if (std::find(articulated.begin(), articulated.end(), furniture) == articulated.end()) {
       articulated.emplace_back(furniture);

@@ -8,7 +8,7 @@
 
 namespace simwright::twin {
 
-// Where an object stands on the table: m and rad.
+// The pose of an object that stands on the table: m and rad.
 struct TablePose {
   double x = 0.0, y = 0.0, yaw = 0.0;
 

@@ -21,7 +21,7 @@ float Random(core::Rng* rng, double low, double high) {
 }
 
 Eigen::Vector3f RandomColor(core::Rng* rng) {
-  // Colours of things: often pale, dark or greyish, seldom saturated.
+  // Colours of objects: often pale, dark or greyish, seldom saturated.
   const float value = Random(rng, 0.08, 0.97);
   const float spread = core::Uniform(*rng) < 0.4 ? 0.05f : 0.45f;
   Eigen::Vector3f color;
@@ -111,7 +111,7 @@ void PlaceObjects(core::Rng* rng, std::vector<TableObject>* objects) {
   const double spread = core::Uniform(*rng, 0.1, 0.26);
   for (TableObject& object : *objects) {
     Eigen::Vector2d middle;
-    // A circle through the corners is too wide for long things.
+    // A circle through the corners is too wide for long objects.
     const double radius = 0.85 * CircleRadius(object.visual, &middle);
     const bool frontal =
         object.mesh < 0 &&

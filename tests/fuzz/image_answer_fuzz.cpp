@@ -1,4 +1,4 @@
-// What image servers answer, and workflows with placeholders: a text or nothing, whatever the bytes
+// Answers of image servers, and workflows with placeholders: a text or nothing, whatever the bytes
 // are; the words of a prompt stay words.
 #include <cstdint>
 #include <cstdlib>

@@ -77,7 +77,7 @@ BakedBeaker BakeBeaker(const std::string& material, std::uint64_t seed, int size
 }
 
 TEST(Materials, ShowNoBordersOfCharts) {
-  // Where the surface turns sharply a board shows its end grain: such edges are left out.
+  // A board shows its end grain at sharp edges, which are therefore left out.
   for (const char* name :
        {"oak", "ceramic", "marble", "steel", "leather", "linen", "apple", "cork"}) {
     const BakedBeaker baked = BakeBeaker(name, 3, 512);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "tests/texture/ball.h"
 #include "texture/painting/painting.h"
 #include "texture/painting/seam_step.h"
 #include "texture/painting/surface_fill.h"
@@ -22,30 +23,6 @@ core::TriangleMesh PaintedCube() {
   }
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return mesh;
-}
-
-core::TriangleMesh PaintedSphere(int rings) {
-  core::TriangleMesh mesh;
-  const int around = 2 * rings;
-  mesh.vertices.emplace_back(0, 0, 1);
-  for (int r = 1; r < rings; ++r) {
-    for (int k = 0; k < around; ++k) {
-      const double a = M_PI * r / rings, b = 2 * M_PI * k / around;
-      mesh.vertices.emplace_back(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a));
-    }
-  }
-  mesh.vertices.emplace_back(0, 0, -1);
-  const int last = static_cast<int>(mesh.vertices.size()) - 1;
-  const auto at = [&](int r, int k) { return 1 + (r - 1) * around + k % around; };
-  for (int k = 0; k < around; ++k) {
-    mesh.triangles.emplace_back(0, at(1, k), at(1, k + 1));
-    for (int r = 1; r + 1 < rings; ++r) {
-      mesh.triangles.emplace_back(at(r, k), at(r + 1, k), at(r + 1, k + 1));
-      mesh.triangles.emplace_back(at(r, k), at(r + 1, k + 1), at(r, k + 1));
-    }
-    mesh.triangles.emplace_back(last, at(rings - 1, k + 1), at(rings - 1, k));
-  }
   return mesh;
 }
 
@@ -203,7 +180,7 @@ TEST(Painting, EachTexelOfACubeIsPaintedByTheViewThatTheTrimapSays) {
 }
 
 TEST(Painting, EachTexelOfASphereIsPaintedByTheViewThatTheTrimapSays) {
-  ExpectTexelsFollowTheTrimaps(PaintedSphere(48), true);
+  ExpectTexelsFollowTheTrimaps(Ball(48), true);
 }
 
 // The views that see the middle of each face squarest: the closed form of the rule for a cube. A
@@ -236,7 +213,7 @@ TEST(Painting, FacesOfACubeEndWithTheViewInFrontOfThem) {
 
 TEST(Painting, ASolidTextureComesBackAtEachPointWithoutSeams) {
   for (const bool round : {false, true}) {
-    core::TexturedMesh textured = WithAtlas(round ? PaintedSphere(32) : PaintedCube());
+    core::TexturedMesh textured = WithAtlas(round ? Ball(32) : PaintedCube());
     const TexelMap map = MakeTexelMap(textured.mesh, textured.corner_uvs, kTextureSize);
     SolidColor endpoint;
     core::Progress silent;

@@ -44,7 +44,7 @@ TEST(TrainDetector, LearnsAndWritesWeights) {
   EXPECT_GT(overlap.back(), overlap.front() + 0.05);
   EXPECT_GT(overlap.back(), 0.25);
   const ObjectDetector detector(weights);
-  // Of a picture with objects more is taken for objects than of an empty one.
+  // A picture with objects has a larger share of object pixels than an empty one.
   TableSceneOptions options = SmallTraining().scenes;
   core::Rng rng(4);
   const TableScene scene = SampleTableScene({}, options, &rng);

@@ -31,7 +31,7 @@ TEST(TableCamera, LooksAtTheTableByTheElevation) {
   EXPECT_NEAR(seen.x(), 200.0, 1e-9);
   EXPECT_NEAR(seen.y(), 150.0, 1e-9);
   EXPECT_NEAR(seen.z(), 0.5 / std::sin(0.6), 1e-12);
-  // What lies to the right is on the right, what is higher is higher in the picture.
+  // The image keeps the world's right and its up.
   EXPECT_GT(camera.Project(Eigen::Vector3d(0.1, 0.7, 0.0)).x(), 200.0);
   EXPECT_LT(camera.Project(Eigen::Vector3d(0.0, 0.7, 0.2)).y(),
             camera.Project(Eigen::Vector3d(0.0, 0.7, 0.0)).y());

@@ -41,7 +41,7 @@ enum class Substance {
 
 enum class Pattern { kNone, kStripes, kDots, kChecks, kPlaid, kRim };
 
-// How the skin of a fruit or a vegetable looks, beside its two colours.
+// The pattern of the skin of a fruit or a vegetable, beside its two colours.
 enum class SkinFigure { kPlain, kStreaks, kPores, kSpots, kBands, kFuzz };
 
 // A material with its colours (sRGB, each in [0, 1]).
@@ -66,7 +66,7 @@ struct SurfaceMaterial {
   bool IsMetal() const;
 };
 
-// Where a part lies, in the frame of its points (m, z up).
+// The pose and extent of a part, in the frame of its points (m, z up).
 struct PartFrame {
   Eigen::AlignedBox3f box;         // of the part
   Eigen::Vector3f grain{1, 0, 0};  // unit: its longest direction
