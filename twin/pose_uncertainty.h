@@ -17,8 +17,8 @@ struct PoseUncertainty {
 // pixels in a picture of width w, s being the diagonal of `box`; twice that if the object is partly
 // hidden. Across the line of sight that is e d / f at distance d, and along the plane away from the
 // camera e d / (f sin(a)), a being the angle of the line of sight to the plane. The yaw is off by e
-// over half the longer side in pixels; the size by e / s and the scale of all lengths together. Wrong
-// kinds and occlusions make larger errors than that (docs/twin.md).
+// over half the longer side in pixels; the size by e / s and the scale of all lengths together.
+// Wrong kinds and occlusions make larger errors than that (docs/twin.md).
 PoseUncertainty UncertaintyOf(const TableFit& fit, const Eigen::AlignedBox2d& box,
                               const core::Camera& camera, bool hidden, double log_scale_error);
 
