@@ -18,7 +18,7 @@ DetectorExample MakeDetectorExample(const TableSceneSources& sources,
                                     const TableSceneOptions& options, std::uint64_t seed) {
   core::Rng rng = core::StreamRng(seed, 0x7ab1e);
   const TableScene scene = SampleTableScene(sources, options, &rng);
-  const TablePicture picture = RenderTable(scene, sources, 2, seed);
+  const TablePicture picture = RenderTable(scene, sources, {2, 1, 1}, seed);
   DetectorExample example;
   example.picture = picture.color.pixels;
   example.object.reserve(picture.label.size());

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
 #include "core/parallel.h"
 #include "render/scene.h"
 
 namespace simwright::twin {
 namespace {
 
-constexpr float kOcclusionReach = 0.25f;   // m
-constexpr int kSkyRays = 4, kSunRays = 2;  // a sample
-constexpr int kMostSamples = 16;           // a pixel
+constexpr float kOcclusionReach = 0.25f;  // m
+constexpr int kMostSamples = 16;          // a pixel
 
 // Returns a hash of three integers in [0, 1).
 float Hashed(int x, int y, int z, std::uint32_t seed) {
@@ -130,11 +130,11 @@ struct PixelSample {
 // Draws the rows of one picture.
 class TableRenderer {
  public:
-  TableRenderer(const TableScene& scene, const TableSceneSources& sources, int samples,
-                std::uint64_t seed)
+  TableRenderer(const TableScene& scene, const TableSceneSources& sources,
+                const TablePictureRays& rays, std::uint64_t seed)
       : scene_(scene),
         sources_(sources),
-        samples_(samples),
+        count_(rays),
         seed_(seed),
         board_(BoardMesh(scene.table)) {
     for (const TableObject& object : scene.objects) {
@@ -147,16 +147,16 @@ class TableRenderer {
 
   void DrawRow(int y, TablePicture* picture) const {
     const core::Camera& camera = scene_.camera;
+    const int side = count_.samples;
     const Eigen::Vector3f origin = camera.position().cast<float>();
     for (int x = 0; x < camera.width; ++x) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       std::array<std::int16_t, kMostSamples> labels{};
       std::array<float, kMostSamples> depths{};
-      const int count = samples_ * samples_;
+      const int count = side * side;
       const float turn = Hashed(x, y, 0, static_cast<std::uint32_t>(seed_));
       for (int k = 0; k < count; ++k) {
-        const Eigen::Vector2d pixel(x + (k % samples_ + 0.5) / samples_,
-                                    y + (k / samples_ + 0.5) / samples_);
+        const Eigen::Vector2d pixel(x + (k % side + 0.5) / side, y + (k / side + 0.5) / side);
         const Eigen::Vector3f ray = camera.Ray(pixel).cast<float>();
         const render::Hit hit = rays_.Intersect(origin, ray, 1e-3f);
         const auto at = static_cast<size_t>(k);
@@ -269,30 +269,30 @@ class TableRenderer {
                  const PixelSample& sample) const {
     const Eigen::Vector3f tangent = normal.unitOrthogonal(), bitangent = normal.cross(tangent);
     int open = 0;
-    for (int i = 0; i < kSkyRays; ++i) {
-      const Eigen::Vector2f at = DiscPoint(sample, i, kSkyRays);
+    for (int i = 0; i < count_.sky; ++i) {
+      const Eigen::Vector2f at = DiscPoint(sample, i, count_.sky);
       const Eigen::Vector3f direction = at.x() * tangent + at.y() * bitangent +
                                         std::sqrt(std::max(0.0f, 1.0f - at.squaredNorm())) * normal;
       open += rays_.Occluded(start, direction, 0.0f, kOcclusionReach) ? 0 : 1;
     }
-    return static_cast<float>(open) / kSkyRays;
+    return static_cast<float>(open) / static_cast<float>(count_.sky);
   }
 
   float SunShare(const Eigen::Vector3f& start, const PixelSample& sample) const {
     const Eigen::Vector3f axis = scene_.sun_direction;
     const Eigen::Vector3f tangent = axis.unitOrthogonal(), bitangent = axis.cross(tangent);
     int open = 0;
-    for (int i = 0; i < kSunRays; ++i) {
-      const Eigen::Vector2f at = scene_.sun_radius * DiscPoint(sample, i, kSunRays);
+    for (int i = 0; i < count_.sun; ++i) {
+      const Eigen::Vector2f at = scene_.sun_radius * DiscPoint(sample, i, count_.sun);
       open +=
           rays_.Occluded(start, axis + at.x() * tangent + at.y() * bitangent, 0.0f, 1e3f) ? 0 : 1;
     }
-    return static_cast<float>(open) / kSunRays;
+    return static_cast<float>(open) / static_cast<float>(count_.sun);
   }
 
   const TableScene& scene_;
   const TableSceneSources& sources_;
-  int samples_;
+  TablePictureRays count_;
   std::uint64_t seed_;
   core::TexturedMesh board_;
   render::Scene rays_;
@@ -301,14 +301,18 @@ class TableRenderer {
 
 }  // namespace
 
-TablePicture RenderTable(const TableScene& scene, const TableSceneSources& sources, int samples,
-                         std::uint64_t seed) {
+TablePicture RenderTable(const TableScene& scene, const TableSceneSources& sources,
+                         const TablePictureRays& rays, std::uint64_t seed) {
+  if (rays.samples < 1 || rays.samples * rays.samples > kMostSamples || rays.sky < 1 ||
+      rays.sun < 1) {
+    throw core::Error("a picture needs 1 to 4 samples a side, and rays to the sky and the sun");
+  }
   const int width = scene.camera.width, height = scene.camera.height;
   TablePicture picture;
   picture.color = core::Image(width, height, 3);
   picture.label.assign(static_cast<size_t>(width) * height, kBackgroundLabel);
   picture.depth.assign(picture.label.size(), 0.0f);
-  const TableRenderer renderer(scene, sources, std::clamp(samples, 1, 4), seed);
+  const TableRenderer renderer(scene, sources, rays, seed);
   core::ParallelFor(height, [&](int y) { renderer.DrawRow(y, &picture); });
   return picture;
 }

@@ -17,10 +17,16 @@ struct TablePicture {
   std::vector<float> depth;         // (height x width) m along the optical axis, 0: background
 };
 
-// Renders a scene with `samples` x `samples` rays a pixel: sky light with ambient occlusion, a sun
-// with soft shadows, highlights. The label and depth of a pixel are those of most of its rays, and
-// of the first of these.
-TablePicture RenderTable(const TableScene& scene, const TableSceneSources& sources, int samples,
-                         std::uint64_t seed);
+// The rays of a picture. Those of a pixel's samples are spread evenly among each other.
+struct TablePictureRays {
+  int samples = 3;  // squared is the number of rays a pixel, 1 to 4
+  int sky = 4;      // a sample, towards the sky
+  int sun = 2;      // a sample, towards the sun
+};
+
+// Renders a scene: sky light with ambient occlusion, a sun with soft shadows, highlights. The label
+// and depth of a pixel are those of most of its samples, and of the first of these.
+TablePicture RenderTable(const TableScene& scene, const TableSceneSources& sources,
+                         const TablePictureRays& rays, std::uint64_t seed);
 
 }  // namespace simwright::twin

@@ -165,7 +165,7 @@ void Run(const Options& options) {
     core::Rng rng = core::StreamRng(options.tuning ? 78 : 77, static_cast<std::uint64_t>(number));
     const twin::TableScene scene = twin::SampleTableScene(sources, scene_options, &rng);
     const twin::TablePicture picture =
-        twin::RenderTable(scene, sources, 3, static_cast<std::uint64_t>(number));
+        twin::RenderTable(scene, sources, {}, static_cast<std::uint64_t>(number));
     std::vector<int> indices;
     const std::vector<twin::Detection> truth =
         TrueDetections(picture, static_cast<int>(scene.objects.size()), &indices);

@@ -48,7 +48,7 @@ TEST(TrainDetector, LearnsAndWritesWeights) {
   TableSceneOptions options = SmallTraining().scenes;
   core::Rng rng(4);
   const TableScene scene = SampleTableScene({}, options, &rng);
-  const core::Image picture = core::Resize(RenderTable(scene, {}, 2, 1).color, 256, 192);
+  const core::Image picture = core::Resize(RenderTable(scene, {}, {2, 4, 2}, 1).color, 256, 192);
   const double empty = detector.Detect(core::Image(256, 192, 3, 128)).object_share;
   EXPECT_GT(detector.Detect(picture).object_share, empty + 0.005);
   EXPECT_THROW(detector.Detect(core::Image(20, 20, 3)), core::Error);

@@ -54,7 +54,7 @@ TEST(TableScene, HeldOutSeedsAreOthers) {
 TEST(TablePicture, LabelsAndDepthsAreThoseOfTheObjects) {
   core::Rng rng(5);
   const TableScene scene = SampleTableScene({}, {}, &rng);
-  const TablePicture picture = RenderTable(scene, {}, 2, 1);
+  const TablePicture picture = RenderTable(scene, {}, {2, 4, 2}, 1);
   const core::Camera& camera = scene.camera;
   ASSERT_EQ(picture.label.size(), static_cast<size_t>(camera.width) * camera.height);
   std::set<int> seen;
