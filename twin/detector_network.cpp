@@ -17,33 +17,47 @@ nn::UNetOptions UNetOf(const DetectorNetworkOptions& options) {
   unet.in_channels = 3;
   unet.out_channels = kPixelNumbers;
   unet.channels = options.channels;
+  unet.patch = options.patch;
   unet.attention_from = static_cast<int>(options.channels.size()) - 1;
   return unet;
 }
 
 }  // namespace
 
-nn::CheckpointMetadata DetectorNetworkOptions::Metadata() const {
-  std::string list;
-  for (const int count : channels) list += (list.empty() ? "" : ",") + std::to_string(count);
-  return {{"channels", list}};
+bool DetectorNetworkOptions::IsValid(std::string* error) const {
+  const bool counts =
+      channels.size() == 4 && std::all_of(channels.begin(), channels.end(), [](int count) {
+        return count >= 8 && count <= 1024 && count % 8 == 0;
+      });
+  if (counts && patch >= 1 && patch <= 8) return true;
+  if (error) {
+    *error = counts ? "the network's patch must have 1 to 8 pixels a side"
+                    : "the network needs four channel counts, multiples of 8 up to 1024";
+  }
+  return false;
 }
 
-DetectorNetworkOptions DetectorNetworkOptions::Of(const std::filesystem::path& weights) {
+nn::CheckpointMetadata MetadataOf(const DetectorNetworkOptions& options) {
+  std::string list;
+  for (const int count : options.channels)
+    list += (list.empty() ? "" : ",") + std::to_string(count);
+  return {{"channels", list}, {"patch", std::to_string(options.patch)}};
+}
+
+DetectorNetworkOptions ReadDetectorSizes(const std::filesystem::path& weights) {
   const nn::CheckpointMetadata metadata = nn::ReadCheckpointMetadata(weights, "table detector");
+  const auto text = [&](const char* name) {
+    const auto found = metadata.find(name);
+    return found == metadata.end() ? std::string() : found->second;
+  };
   DetectorNetworkOptions options;
   options.channels.clear();
-  if (const auto list = metadata.find("channels"); list != metadata.end()) {
-    std::istringstream counts(list->second);
-    for (std::string count; std::getline(counts, count, ',');) {
-      options.channels.push_back(std::atoi(count.c_str()));
-    }
+  std::istringstream counts(text("channels"));
+  for (std::string count; std::getline(counts, count, ',');) {
+    options.channels.push_back(std::atoi(count.c_str()));
   }
-  const bool valid = options.channels.size() == 4 &&
-                     std::all_of(options.channels.begin(), options.channels.end(), [](int count) {
-                       return count >= 8 && count <= 1024 && count % 8 == 0;
-                     });
-  if (!valid) {
+  options.patch = std::atoi(text("patch").c_str());
+  if (!options.IsValid(nullptr)) {
     throw core::Error("the weights name no valid sizes of the network", weights.string(),
                       "train them again: simwright prior train --only detector");
   }

@@ -2,13 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "nn/blocks.h"
 #include "nn/checkpoint.h"
 #include "nn/torch.h"
 #include "nn/unet.h"
+#include "twin/detector_network_options.h"
 
 namespace simwright::twin {
 
@@ -27,14 +26,10 @@ struct DetectorOutput {
   torch::Tensor log_b;   // (B x 4) logarithms of the mean absolute errors
 };
 
-// The sizes of the network, which its weights' file keeps.
-struct DetectorNetworkOptions {
-  std::vector<int> channels = {24, 48, 96, 160};  // of the U-Net's levels
-
-  nn::CheckpointMetadata Metadata() const;
-  // Reads the sizes from the file `weights`. Throws core::Error for a file without valid ones.
-  static DetectorNetworkOptions Of(const std::filesystem::path& weights);
-};
+// Returns the entries of a weights' file that state the sizes.
+nn::CheckpointMetadata MetadataOf(const DetectorNetworkOptions& options);
+// Reads the sizes from the file `weights`. Throws core::Error for a file without valid ones.
+DetectorNetworkOptions ReadDetectorSizes(const std::filesystem::path& weights);
 
 // Finds the objects on a table as a U-Net that tells for each pixel whether it shows an object, and
 // where the middle of that object is (Cheng et al. 2020, "Panoptic-DeepLab"); and the camera above
@@ -43,7 +38,7 @@ class DetectorNetworkImpl : public torch::nn::Module {
  public:
   explicit DetectorNetworkImpl(const DetectorNetworkOptions& options = {});
 
-  // `pictures` (B x 3 x H x W): RGB in [-1, 1]; H and W divisible by 16.
+  // `pictures` (B x 3 x H x W): RGB in [-1, 1]; H and W multiples of the options' side_step().
   DetectorOutput Detect(const torch::Tensor& pictures);
 
  private:

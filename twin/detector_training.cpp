@@ -28,6 +28,7 @@ struct DetectorBatch {
   torch::Tensor centre;    // (B x 1 x H x W) heat in [0, 1]
   torch::Tensor offset;    // (B x 2 x H x W)
   torch::Tensor camera;    // (B x 4)
+  torch::Tensor whole;     // (B) 0: a part of a picture, which does not tell the camera
 };
 
 // The pictures of a training, exchanged gradually, since rendering one takes about as long as a
@@ -117,6 +118,7 @@ void WriteTruth(const DetectorExample& example, std::int64_t b, int width, int h
         if (object.count < kLeastPixels) continue;
         const double sigma = 1.5 + 0.06 * std::sqrt(object.count);
         const double squares = (object.x - x) * (object.x - x) + (object.y - y) * (object.y - y);
+        if (squares > 16.0 * sigma * sigma) continue;
         const auto heat = static_cast<float>(std::exp(-0.5 * squares / (sigma * sigma)));
         centre[b][0][y][x] = std::max(centre[b][0][y][x], heat);
       }
@@ -133,6 +135,41 @@ void WriteTruth(const DetectorExample& example, std::int64_t b, int width, int h
   }
 }
 
+// Returns a part of a picture, 0.6 to 1 of its sides, enlarged to its size: objects of other sizes.
+DetectorExample PartOfExample(const DetectorExample& example, int width, int height,
+                              core::Rng* rng) {
+  const double side = core::Uniform(*rng, 0.6, 1.0);
+  const double left = core::Uniform(*rng, 0.0, (1.0 - side) * width);
+  const double top = core::Uniform(*rng, 0.0, (1.0 - side) * height);
+  DetectorExample part;
+  part.picture.resize(example.picture.size());
+  part.object.resize(example.object.size());
+  part.camera = example.camera;
+  const auto clamped = [](double at, int size) { return std::clamp(at, 0.0, size - 1.001); };
+  for (int y = 0; y < height; ++y) {
+    const double sy = clamped(top + side * (y + 0.5) - 0.5, height);
+    const auto y0 = static_cast<size_t>(sy);
+    const double ty = sy - static_cast<double>(y0);
+    for (int x = 0; x < width; ++x) {
+      const double sx = clamped(left + side * (x + 0.5) - 0.5, width);
+      const auto x0 = static_cast<size_t>(sx);
+      const double tx = sx - static_cast<double>(x0);
+      const size_t row = static_cast<size_t>(width), from = y0 * row + x0;
+      const size_t to = static_cast<size_t>(y) * row + static_cast<size_t>(x);
+      for (size_t c = 0; c < 3; ++c) {
+        const auto at = [&](size_t pixel) {
+          return static_cast<double>(example.picture[3 * pixel + c]);
+        };
+        const double value = (1.0 - ty) * ((1.0 - tx) * at(from) + tx * at(from + 1)) +
+                             ty * ((1.0 - tx) * at(from + row) + tx * at(from + row + 1));
+        part.picture[3 * to + c] = static_cast<std::uint8_t>(value + 0.5);
+      }
+      part.object[to] = example.object[from + (tx > 0.5 ? 1 : 0) + (ty > 0.5 ? row : 0)];
+    }
+  }
+  return part;
+}
+
 DetectorBatch BatchOf(const TablePool& pool, const DetectorTrainingOptions& options,
                       core::Rng rng) {
   const int width = options.scenes.width, height = options.scenes.height, size = options.batch;
@@ -144,10 +181,22 @@ DetectorBatch BatchOf(const TablePool& pool, const DetectorTrainingOptions& opti
   batch.centre = torch::zeros({size, 1, height, width});
   batch.offset = torch::zeros({size, 2, height, width});
   batch.camera = torch::empty({size, kCameraNumbers});
+  batch.whole = torch::ones({size});
   std::vector<const DetectorExample*> picked;
-  for (int i = 0; i < size; ++i) picked.push_back(&pool.Pick(&rng));
+  std::vector<std::uint64_t> seeds;
+  for (int i = 0; i < size; ++i) {
+    picked.push_back(&pool.Pick(&rng));
+    seeds.push_back(rng());
+  }
   core::ParallelFor(size, [&](int i) {
-    const DetectorExample& example = *picked[static_cast<size_t>(i)];
+    core::Rng own(seeds[static_cast<size_t>(i)]);
+    DetectorExample part;
+    const bool is_part = core::Uniform(own) < options.part_share;
+    if (is_part) {
+      part = PartOfExample(*picked[static_cast<size_t>(i)], width, height, &own);
+      batch.whole[i] = 0.0;
+    }
+    const DetectorExample& example = is_part ? part : *picked[static_cast<size_t>(i)];
     std::copy(example.picture.begin(), example.picture.end(),
               pixels.begin() + static_cast<std::ptrdiff_t>(bytes) * i);
     WriteTruth(example, i, width, height, &batch);
@@ -191,13 +240,13 @@ void Augment(DetectorBatch* batch) {
 
 DetectorBatch PartOf(const DetectorBatch& batch, std::int64_t first, std::int64_t count) {
   const auto cut = [&](const torch::Tensor& t) { return t.slice(0, first, first + count); };
-  return {cut(batch.pictures), cut(batch.object), cut(batch.known),
-          cut(batch.centre),   cut(batch.offset), cut(batch.camera)};
+  return {cut(batch.pictures), cut(batch.object), cut(batch.known), cut(batch.centre),
+          cut(batch.offset),   cut(batch.camera), cut(batch.whole)};
 }
 
 struct DetectorSums {
   torch::Tensor loss;  // scalar: the sum over pictures
-  double shared = 0.0, joint = 0.0, offset = 0.0, pixels = 0.0;
+  double shared = 0.0, joint = 0.0, offset = 0.0, pixels = 0.0, whole = 0.0;
   double camera[kCameraNumbers] = {};
 };
 
@@ -217,7 +266,8 @@ DetectorSums LossesOn(DetectorNetworkImpl* network, const DetectorBatch& batch) 
   const torch::Tensor offset =
       (off.flatten(1).sum(1) / (batch.object.flatten(1).sum(1) + 1.0)).sum();
   const torch::Tensor camera_off = (out.camera - batch.camera).abs();
-  const torch::Tensor camera = (camera_off * torch::exp(-out.log_b) + out.log_b).mean(1).sum();
+  const torch::Tensor camera =
+      ((camera_off * torch::exp(-out.log_b) + out.log_b).mean(1) * batch.whole).sum();
   DetectorSums sums;
   sums.loss = 3.0 * per_picture(bce) + dice + 3.0 * per_picture(heat) + 0.5 * offset + 0.1 * camera;
   const torch::NoGradGuard no_grad;
@@ -226,8 +276,9 @@ DetectorSums LossesOn(DetectorNetworkImpl* network, const DetectorBatch& batch) 
   sums.joint = torch::clamp_max(found + batch.object, 1.0).sum().item<double>();
   sums.offset = kOffsetUnit * off.sum().item<double>();
   sums.pixels = batch.object.sum().item<double>();
+  sums.whole = batch.whole.sum().item<double>();
   for (int k = 0; k < kCameraNumbers; ++k) {
-    sums.camera[k] = camera_off.select(1, k).sum().item<double>();
+    sums.camera[k] = (camera_off.select(1, k) * batch.whole).sum().item<double>();
   }
   return sums;
 }
@@ -247,10 +298,11 @@ class DetectorMeans {
       sums_.joint += part.joint;
       sums_.offset += part.offset;
       sums_.pixels += part.pixels;
+      sums_.whole += part.whole;
       for (int k = 0; k < kCameraNumbers; ++k) sums_.camera[k] += part.camera[k];
     }
     if ((step + 1) % kReportSteps != 0 && step + 1 != options_.trainer.steps) return;
-    const double pictures = count_ * static_cast<double>(options_.batch);
+    const double pictures = std::max(1.0, sums_.whole);
     last_ = {step + 1,
              loss_ / count_,
              {{"object IoU", sums_.shared / std::max(1.0, sums_.joint)},
@@ -276,8 +328,7 @@ class DetectorMeans {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-void SaveWeights(const DetectorNetwork& network, const DetectorNetworkOptions& sizes,
-                 const DetectorTrainingOptions& options, int step,
+void SaveWeights(const DetectorNetwork& network, const DetectorTrainingOptions& options, int step,
                  const std::filesystem::path& weights) {
   nn::CheckpointMetadata card{{"kind", "table detector"},
                               {"step", std::to_string(step)},
@@ -285,15 +336,15 @@ void SaveWeights(const DetectorNetwork& network, const DetectorNetworkOptions& s
                               {"width", std::to_string(options.scenes.width)},
                               {"height", std::to_string(options.scenes.height)},
                               {"seed", std::to_string(options.seed)}};
-  card.merge(sizes.Metadata());
+  card.merge(MetadataOf(options.network));
   nn::SaveCheckpoint(*network, card, weights);
 }
 
 }  // namespace
 
 DetectorTrainingOptions::DetectorTrainingOptions() {
-  trainer.steps = 6000;
-  trainer.learning_rate = 1.5e-3;
+  trainer.steps = 10000;
+  trainer.learning_rate = 2e-3;
   trainer.save_every = 200;
 }
 
@@ -304,14 +355,11 @@ bool DetectorTrainingOptions::IsValid(std::string* error) const {
   };
   if (!trainer.IsValid(error) || !scenes.IsValid(error)) return false;
   if (batch < 1) return fail("training needs at least one picture per step");
+  if (!(part_share >= 0.0 && part_share <= 1.0)) return fail("part_share must lie in [0, 1]");
   if (pool < 1 || exchange < 0 || exchange > pool) return fail("the pool is too small");
-  if (scenes.width % 16 != 0 || scenes.height % 16 != 0) {
-    return fail("the sides of the pictures must be multiples of 16");
-  }
-  if (channels.size() != 4 || std::any_of(channels.begin(), channels.end(), [](int count) {
-        return count < 8 || count > 1024 || count % 8 != 0;
-      })) {
-    return fail("the network needs four channel counts, multiples of 8 up to 1024");
+  if (!network.IsValid(error)) return false;
+  if (scenes.width % network.side_step() != 0 || scenes.height % network.side_step() != 0) {
+    return fail("the sides of the pictures must be multiples of 8 patches of the network");
   }
   return true;
 }
@@ -326,9 +374,7 @@ asset_lift::PriorTrainingReport TrainDetector(const TableSceneSources& sources,
   nn::PrepareForWork();
   torch::manual_seed(static_cast<std::int64_t>(options.seed));
   const torch::Device device = nn::BestDevice();
-  DetectorNetworkOptions sizes;
-  sizes.channels = options.channels;
-  DetectorNetwork network(sizes), kept(sizes);
+  DetectorNetwork network(options.network), kept(options.network);
   network->to(device);
   nn::Trainer trainer(network.get(), options.trainer, weights.string() + ".state");
   const int first = trainer.first_step(), steps = options.trainer.steps;
@@ -344,7 +390,7 @@ asset_lift::PriorTrainingReport TrainDetector(const TableSceneSources& sources,
     DetectorBatch batch = BatchOf(
         pool, options, core::StreamRng(options.seed ^ 0x7ab1eull, static_cast<std::uint64_t>(i)));
     for (torch::Tensor* t : {&batch.pictures, &batch.object, &batch.known, &batch.centre,
-                             &batch.offset, &batch.camera}) {
+                             &batch.offset, &batch.camera, &batch.whole}) {
       *t = t->to(device);
     }
     Augment(&batch);
@@ -360,7 +406,7 @@ asset_lift::PriorTrainingReport TrainDetector(const TableSceneSources& sources,
     if (trainer.SaveDue(i)) {
       trainer.SaveState(i + 1);
       trainer.CopyAverageTo(kept.get());
-      SaveWeights(kept, sizes, options, i + 1, weights);
+      SaveWeights(kept, options, i + 1, weights);
     }
     progress->Advance();
   }

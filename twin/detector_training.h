@@ -3,21 +3,22 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "asset_lift/priors/prior_training.h"
 #include "core/progress.h"
 #include "nn/trainer_options.h"
+#include "twin/detector_network_options.h"
 #include "twin/table_scene.h"
 
 namespace simwright::twin {
 
 struct DetectorTrainingOptions {
   nn::TrainerOptions trainer;
-  int batch = 8;     // pictures per step
-  int pool = 3000;   // pictures kept in memory: 200 KB each
-  int exchange = 3;  // pictures of the pool that each step replaces by new ones
-  std::vector<int> channels = {24, 48, 96, 160};  // of the network's levels
+  int batch = 8;            // pictures per step
+  int pool = 4000;          // pictures kept in memory: 200 KB each
+  int exchange = 3;         // pictures of the pool that each step replaces by new ones
+  double part_share = 0.5;  // of pictures of which only an enlarged part is shown
+  DetectorNetworkOptions network;
   TableSceneOptions scenes;
   std::uint64_t seed = 1;
 

@@ -13,10 +13,9 @@ namespace simwright::twin {
 namespace {
 
 constexpr double kNetworkPixels = 256.0 * 192.0;  // of the pictures on which it was trained
-constexpr int kSideStep = 16;
 
-int NetworkSide(int side, double scale) {
-  return std::max(4, static_cast<int>(std::lround(side * scale / kSideStep))) * kSideStep;
+int NetworkSide(int side, double scale, int step) {
+  return std::max(2, static_cast<int>(std::lround(side * scale / step))) * step;
 }
 
 // Returns the value of a picture of `pixels` at a point, bilinear, in pixels of that picture.
@@ -116,12 +115,14 @@ std::vector<Detection> ObjectsOf(const DetectedPixels& pixels, const PixelGroups
 }  // namespace
 
 struct ObjectDetector::Network {
+  DetectorNetworkOptions sizes;
   DetectorNetwork net{nullptr};
 };
 
 ObjectDetector::ObjectDetector(const std::filesystem::path& weights)
     : network_(std::make_unique<Network>()) {
-  network_->net = DetectorNetwork(DetectorNetworkOptions::Of(weights));
+  network_->sizes = ReadDetectorSizes(weights);
+  network_->net = DetectorNetwork(network_->sizes);
   nn::LoadCheckpoint(weights, "table detector", network_->net.get());
   network_->net->eval();
 }
@@ -134,7 +135,9 @@ Detections ObjectDetector::Detect(const core::Image& photo) const {
   }
   const torch::NoGradGuard no_grad;
   const double scale = std::sqrt(kNetworkPixels / photo.width / photo.height);
-  const int width = NetworkSide(photo.width, scale), height = NetworkSide(photo.height, scale);
+  const int step = network_->sizes.side_step();
+  const int width = NetworkSide(photo.width, scale, step);
+  const int height = NetworkSide(photo.height, scale, step);
   const core::Image seen = core::Resize(photo, width, height);
   const DetectorOutput output =
       network_->net->Detect(DetectorPictures(seen.pixels.data(), 1, height, width));

@@ -177,8 +177,8 @@ Table RandomTable(const TableSceneSources& sources, const std::vector<TableObjec
   table.yaw = 0.1 * core::Normal(*rng);
   table.thickness = core::Uniform(*rng, 0.015, 0.08);
   table.look = RandomSurfaceLook(rng, 0.01, 0.4);
-  if (core::Uniform(*rng) < 0.35) table.look.strength = 0.0f;
-  if (!sources.photos.empty() && core::Uniform(*rng) < 0.5) {
+  table.look.strength = core::Uniform(*rng) < 0.4 ? 0.0f : 0.7f * table.look.strength;
+  if (!sources.photos.empty() && core::Uniform(*rng) < 0.25) {
     table.photo = static_cast<int>(
         core::UniformIndex(*rng, static_cast<std::int64_t>(sources.photos.size())));
     table.photo_width = core::Uniform(*rng, 0.3, 2.5);

@@ -1,12 +1,16 @@
 // Rebuilds rendered tables of library objects that no training used, and compares kinds, poses and
 // sizes with the truth.
 //   bench_twin_table [--count N] [--first N] [--camera known|unknown] [--detector FILE]
-//                    [--photos FOLDER] [--tuning] [--threads N]
+//                    [--photos FOLDER] [--tuning] [--threads N] [--detections-only] [--settle]
+//                    [--pictures FOLDER]
 // --count: tables (60), from number --first (0) on. --camera unknown: elevation, focal length, roll
 // and height are guessed, by the detector or, without one, with errors of 4.6 degrees, 12 %, 1.1
 // degrees and 20 %; positions and yaws are then compared after a rigid alignment in the plane.
 // --detector: weights; without them the true masks are given. --tuning: instances of training
-// seeds, for choosing settings. --photos: what is behind and below the objects.
+// seeds, for choosing settings. --photos: what is behind and below the objects. --detections-only
+// rebuilds nothing. --settle: poses are compared after physics, and the twins that stand without
+// interpenetration are counted. --pictures: a picture of each table, the photo beside the
+// detections.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -21,6 +25,7 @@
 #include "core/parallel.h"
 #include "library_fit/library_prior.h"
 #include "rl/wilson_interval.h"
+#include "settled_twin.h"
 #include "twin/scene_sources.h"
 #include "twin_judgement.h"
 #include "workflows/priors/models_folder.h"
@@ -31,12 +36,14 @@ namespace {
 
 constexpr std::uint64_t kHeldOut = 1'000'000'000;
 constexpr double kPosition = 0.02, kYaw = 10.0 * M_PI / 180.0,
-                 kSize = 0.0953;  // 2 cm, 10 deg, 10 %
+                 kSize = 0.0953;    // 2 cm, 10 deg, 10 %
+constexpr double kTouching = 1e-3;  // m: a deeper interpenetration counts
 
 struct Options {
   int count = 60, first = 0;
-  bool unknown = false, tuning = false;
+  bool unknown = false, tuning = false, detections_only = false, settle = false;
   std::string detector;
+  std::filesystem::path pictures;
   std::vector<std::filesystem::path> photos;
 };
 
@@ -44,8 +51,10 @@ Options Parse(int argc, char** argv) {
   Options options;
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
-    if (flag == "--tuning") {
-      options.tuning = true;
+    if (flag == "--tuning" || flag == "--detections-only" || flag == "--settle") {
+      (flag == "--tuning"   ? options.tuning
+       : flag == "--settle" ? options.settle
+                            : options.detections_only) = true;
       continue;
     }
     if (i + 1 >= argc) throw core::Error("the option needs a value", flag);
@@ -58,6 +67,8 @@ Options Parse(int argc, char** argv) {
       options.unknown = value == "unknown";
     } else if (flag == "--detector") {
       options.detector = value;
+    } else if (flag == "--pictures") {
+      options.pictures = value;
     } else if (flag == "--photos") {
       options.photos.emplace_back(value);
     } else if (flag == "--threads") {
@@ -73,6 +84,7 @@ struct Sums {
   int truths = 0, found = 0, wrong = 0;
   int kinds = 0, positions = 0, yaws = 0, poses = 0, sizes = 0;
   std::vector<double> position_sigmas, size_sigmas, elevation, focal, height;
+  int settled = 0, standing = 0, touching = 0;  // twins
   double seconds = 0.0;
 };
 
@@ -136,6 +148,8 @@ void Print(const Sums& sums, int tables) {
   PrintShare("yaw within 10 degrees", sums.yaws, sums.found);
   PrintShare("both", sums.poses, sums.found);
   PrintShare("size within 10 %", sums.sizes, sums.found);
+  PrintShare("twins that stand still", sums.standing, sums.settled);
+  if (sums.settled > 0) std::printf("twins with interpenetrations: %d\n", sums.touching);
   std::printf("position error over its deviation: median %.2f, 95 %% %.2f; size: %.2f, %.2f\n",
               Quantile(sums.position_sigmas, 0.5), Quantile(sums.position_sigmas, 0.95),
               Quantile(sums.size_sigmas, 0.5), Quantile(sums.size_sigmas, 0.95));
@@ -146,62 +160,104 @@ void Print(const Sums& sums, int tables) {
   std::printf("seconds a table: %.1f\n", sums.seconds / std::max(1, tables));
 }
 
-void Run(const Options& options) {
-  twin::TableSceneSources sources;
-  sources.photos = twin::ReadScenePhotos(options.photos);
-  const library_fit::LibraryPrior prior(workflows::LibraryWeights(workflows::ModelsFolder()));
-  std::unique_ptr<twin::ObjectDetector> detector;
-  if (!options.detector.empty()) {
-    detector = std::make_unique<twin::ObjectDetector>(options.detector);
+// Rebuilds the tables of the options.
+class TableBench {
+ public:
+  explicit TableBench(const Options& options)
+      : options_(options), prior_(workflows::LibraryWeights(workflows::ModelsFolder())) {
+    sources_.photos = twin::ReadScenePhotos(options.photos);
+    if (!options.detector.empty()) {
+      detector_ = std::make_unique<twin::ObjectDetector>(options.detector);
+    }
+    scene_options_.width = 640;
+    scene_options_.height = 480;
+    scene_options_.first_seed = options.tuning ? 1 : kHeldOut;
+    if (options.tuning) scene_options_.seeds = kHeldOut - 1;
+    if (!options.pictures.empty()) std::filesystem::create_directories(options.pictures);
   }
-  twin::TableSceneOptions scene_options;
-  scene_options.width = 640;
-  scene_options.height = 480;
-  scene_options.first_seed = options.tuning ? 1 : kHeldOut;
-  if (options.tuning) scene_options.seeds = kHeldOut - 1;
-  Sums sums;
-  core::Progress silent;
-  for (int number = options.first; number < options.first + options.count; ++number) {
-    core::Rng rng = core::StreamRng(options.tuning ? 78 : 77, static_cast<std::uint64_t>(number));
-    const twin::TableScene scene = twin::SampleTableScene(sources, scene_options, &rng);
+
+  void Run() {
+    for (int number = options_.first; number < options_.first + options_.count; ++number) {
+      Rebuild(number);
+      std::fflush(stdout);
+    }
+    Print(sums_, options_.count);
+  }
+
+ private:
+  void Rebuild(int number) {
+    core::Rng rng = core::StreamRng(options_.tuning ? 78 : 77, static_cast<std::uint64_t>(number));
+    const twin::TableScene scene = twin::SampleTableScene(sources_, scene_options_, &rng);
     const twin::TablePicture picture =
-        twin::RenderTable(scene, sources, {}, static_cast<std::uint64_t>(number));
+        twin::RenderTable(scene, sources_, {}, static_cast<std::uint64_t>(number));
     std::vector<int> indices;
     const std::vector<twin::Detection> truth =
         TrueDetections(picture, static_cast<int>(scene.objects.size()), &indices);
     const twin::TableCamera camera = twin::TableCameraOf(scene.camera);
     const auto start = std::chrono::steady_clock::now();
     twin::Detections found;
-    if (detector) found = detector->Detect(picture.color);
-    if (!detector) found.objects = truth;
-    if (!detector || !options.unknown) found.camera = GuessNear(camera, options.unknown, &rng);
+    if (detector_) found = detector_->Detect(picture.color);
+    if (!detector_) found.objects = truth;
+    if (!detector_ || !options_.unknown) found.camera = GuessNear(camera, options_.unknown, &rng);
     const std::vector<int> matched = MatchedDetections(found.objects, truth);
-    sums.truths += static_cast<int>(truth.size());
-    for (const int match : matched) (match >= 0 ? sums.found : sums.wrong) += 1;
-    if (found.objects.empty()) continue;
-    const twin::TableReconstruction table =
-        twin::ReconstructTable(picture.color, found, prior, {}, &silent);
-    sums.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    sums_.truths += static_cast<int>(truth.size());
+    for (const int match : matched) (match >= 0 ? sums_.found : sums_.wrong) += 1;
+    if (found.objects.empty() || options_.detections_only) {
+      Keep(number, SideBySide(picture.color, DetectionsPicture(picture.color, found)));
+      return;
+    }
+    twin::TableReconstruction table =
+        twin::ReconstructTable(picture.color, found, prior_, {}, &silent_);
+    if (options_.settle) Settle(number, picture.color, found, &table);
+    sums_.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::vector<int> objects;
     for (const twin::ReconstructedObject& object : table.objects) {
       const int match = matched[static_cast<size_t>(object.detection)];
       objects.push_back(match < 0 ? -1 : indices[static_cast<size_t>(match)]);
     }
-    AddErrors(JudgeTable(table, objects, scene, options.unknown), scene, number, &sums);
-    sums.elevation.push_back(std::abs(table.camera.elevation - camera.elevation));
-    sums.focal.push_back(std::abs(std::log(table.camera.focal / camera.focal)));
-    sums.height.push_back(std::abs(std::log(table.camera.height / camera.height)));
-    std::fflush(stdout);
+    AddErrors(JudgeTable(table, objects, scene, options_.unknown), scene, number, &sums_);
+    sums_.elevation.push_back(std::abs(table.camera.elevation - camera.elevation));
+    sums_.focal.push_back(std::abs(std::log(table.camera.focal / camera.focal)));
+    sums_.height.push_back(std::abs(std::log(table.camera.height / camera.height)));
   }
-  Print(sums, options.count);
-}
+
+  void Settle(int number, const core::Image& photo, const twin::Detections& found,
+              twin::TableReconstruction* table) {
+    const SettledTwin settled = SettleReconstruction(photo, found, 1, table);
+    ++sums_.settled;
+    sums_.standing += settled.complete && settled.stands;
+    sums_.touching += settled.penetration > kTouching;
+    if (!settled.complete || !settled.stands || settled.penetration > kTouching) {
+      std::printf("%d does not stand; deepest interpenetration %.2f mm\n", number,
+                  1e3 * settled.penetration);
+    }
+    if (settled.picture.width > 0) {
+      Keep(number, SideBySide(DetectionsPicture(photo, found), settled.picture));
+    }
+  }
+
+  void Keep(int number, const core::Image& picture) const {
+    if (options_.pictures.empty()) return;
+    core::WritePng(options_.pictures / (std::to_string(number) + ".png"), picture);
+  }
+
+  const Options& options_;
+  twin::TableSceneSources sources_;
+  library_fit::LibraryPrior prior_;
+  std::unique_ptr<twin::ObjectDetector> detector_;
+  twin::TableSceneOptions scene_options_;
+  Sums sums_;
+  core::Progress silent_;
+};
 
 }  // namespace
 }  // namespace simwright::bench
 
 int main(int argc, char** argv) {
   try {
-    simwright::bench::Run(simwright::bench::Parse(argc, argv));
+    const simwright::bench::Options options = simwright::bench::Parse(argc, argv);
+    simwright::bench::TableBench(options).Run();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 1;

@@ -16,7 +16,7 @@ namespace {
 
 DetectorTrainingOptions SmallTraining() {
   DetectorTrainingOptions options;
-  options.channels = {8, 16, 16, 24};
+  options.network.channels = {8, 16, 16, 24};
   options.scenes.width = options.scenes.height = 64;
   options.scenes.least_objects = 1;
   options.scenes.most_objects = 3;
@@ -60,7 +60,7 @@ TEST(DetectorTrainingOptions, NamesWhatIsWrong) {
   options.scenes.width = 70;
   std::string error;
   EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_NE(error.find("16"), std::string::npos);
+  EXPECT_NE(error.find("multiples of 8 patches"), std::string::npos);
   options = SmallTraining();
   options.exchange = 25;
   EXPECT_FALSE(options.IsValid(&error));
