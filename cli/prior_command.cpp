@@ -83,7 +83,7 @@ int TrainPriors(PriorFlags flags, const CommonOptions& common) {
   if (flags.rate > 0.0) library.trainer.learning_rate = flags.rate;
   twin::DetectorTrainingOptions& detector = flags.request.detector_options;
   detector.seed = common.seed;
-  detector.trainer.resume = flags.resume;
+  detector.trainer.resume = detector.camera_trainer.resume = flags.resume;
   if (flags.rate > 0.0) detector.trainer.learning_rate = flags.rate;
   if (!flags.from.empty()) {
     flags.request.shape_options.start = workflows::ShapeWeights(flags.from);
