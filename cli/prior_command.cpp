@@ -169,6 +169,10 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
                    "Steps of the detector of objects on tables")
       ->capture_default_str();
   command
+      ->add_option("--camera-steps", flags->request.detector_options.camera_trainer.steps,
+                   "Steps of the detector's camera, after those")
+      ->capture_default_str();
+  command
       ->add_option("--detector-pool", flags->request.detector_options.pool,
                    "Pictures in memory for the detector (200 KB each)")
       ->check(Positive())
