@@ -4,7 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "asset_lift/segmentation/mask_refinement.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "nn/checkpoint.h"
 #include "twin/detected_pixels.h"
 #include "twin/detector_network.h"
@@ -12,6 +14,7 @@
 namespace simwright::twin {
 namespace {
 
+constexpr int kInsideAlpha = 128;
 constexpr double kNetworkPixels = 256.0 * 192.0;  // of the pictures on which it was trained
 
 int NetworkSide(int side, double scale, int step) {
@@ -112,6 +115,30 @@ std::vector<Detection> ObjectsOf(const DetectedPixels& pixels, const PixelGroups
   return objects;
 }
 
+// Moves the outlines of the objects to the edges of the photo.
+void RefineOutlines(const core::Image& photo, std::vector<Detection>* objects) {
+  const std::vector<Detection> rough = *objects;
+  core::ParallelFor(static_cast<int>(rough.size()), [&](int i) {
+    core::Image others(photo.width, photo.height, 1);
+    for (size_t k = 0; k < rough.size(); ++k) {
+      if (static_cast<int>(k) == i) continue;
+      for (size_t p = 0; p < others.pixels.size(); ++p) {
+        others.pixels[p] = std::max(others.pixels[p], rough[k].alpha.pixels[p]);
+      }
+    }
+    Detection& object = (*objects)[static_cast<size_t>(i)];
+    object.alpha = asset_lift::RefinedMask(photo, object.alpha, others);
+    object.box.setEmpty();
+    for (int y = 0; y < photo.height; ++y) {
+      for (int x = 0; x < photo.width; ++x) {
+        if (*object.alpha.At(x, y) < kInsideAlpha) continue;
+        object.box.extend(Eigen::Vector2d(x, y));
+        object.box.extend(Eigen::Vector2d(x + 1, y + 1));
+      }
+    }
+  });
+}
+
 }  // namespace
 
 struct ObjectDetector::Network {
@@ -144,6 +171,7 @@ Detections ObjectDetector::Detect(const core::Image& photo) const {
   const DetectedPixels pixels = PixelsOf(output, width, height);
   Detections found;
   found.objects = ObjectsOf(pixels, GroupPixels(pixels), photo);
+  RefineOutlines(photo, &found.objects);
   found.camera = GuessOf(output);
   double covered = 0.0;
   for (const float share : pixels.object) covered += share >= 0.5f ? 1.0 : 0.0;
