@@ -8,15 +8,16 @@
 // texel belongs to no chart. Distances: of views of the variants to the first one. Recognised: the
 // true kind is the most probable of the kinds of the library prior (models/library_prior.pt), or
 // among its five most probable, by the mean over 8 views as its training draws them; the kind is
-// that of the folder's name (mug_1) or any of the category's. Assets without a kind do not count.
-// With --keep textures that are in OUT already are measured and not made again: their seconds and
-// distances are 0, and assets without any are left out. Smooth edges count where there are 50
-// places to compare.
+// any of the category of the folder's name (mug_1) or of the asset. Assets without a kind do not
+// count. With --keep textures that are in OUT already are measured and not made again: their
+// seconds and distances are 0, and assets without any are left out. Smooth edges count where there
+// are 50 places to compare.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -125,16 +126,31 @@ double Ratio(double seam, double inside, double samples) {
   return samples > 0.0 ? seam / std::max(inside, samples / 255.0) : 0.0;
 }
 
-// The kinds that an asset may be taken for.
+// Returns the kinds that share a category with one of `kinds`.
+std::vector<int> OfTheirCategories(const std::vector<int>& kinds) {
+  std::set<int> all;
+  for (const int kind : kinds) {
+    for (const std::string& row :
+         library_fit::FitKinds()[static_cast<std::size_t>(kind)].categories) {
+      const std::vector<int> same = library_fit::KindsOfCategory(row);
+      all.insert(same.begin(), same.end());
+    }
+    all.insert(kind);
+  }
+  return {all.begin(), all.end()};
+}
+
+// The kinds that an asset may be taken for: those of its category.
 std::vector<int> TrueKinds(const fs::path& folder) {
   std::string name = folder.filename().string();
   const std::size_t number = name.rfind('_');
   if (number != std::string::npos) name = name.substr(0, number);
-  if (const int kind = library_fit::FindFitKind(name); kind >= 0) return {kind};
+  if (const int kind = library_fit::FindFitKind(name); kind >= 0) return OfTheirCategories({kind});
   const std::string category = assets::IsArticulatedAssetFolder(folder)
                                    ? assets::ReadArticulatedAsset(folder).parameters.category
                                    : assets::ReadAsset(folder).parameters.category;
-  return category == "object" ? std::vector<int>{} : library_fit::KindsOfCategory(category);
+  return category == "object" ? std::vector<int>{}
+                              : OfTheirCategories(library_fit::KindsOfCategory(category));
 }
 
 // Returns the rank of the best of the true kinds, 0 for the most probable.
