@@ -19,7 +19,7 @@ constexpr int kTouchReach = 2;         // pixels between groups that touch
 // less than this share of the distance of the means of their pixels. Of two objects each points to
 // its own middle, so that the share is about 1, even if the offsets are too short; of the parts of
 // one object all point to the same middle, and the share is about 0.
-constexpr double kOneObject = 0.55;
+constexpr double kOneObject = 0.7;
 
 struct Peak {
   Eigen::Vector2f at;

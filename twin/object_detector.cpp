@@ -15,6 +15,7 @@ namespace simwright::twin {
 namespace {
 
 constexpr int kInsideAlpha = 128;
+constexpr double kLeastConfidence = 0.45;
 constexpr double kNetworkPixels = 256.0 * 192.0;  // of the pictures on which it was trained
 
 int NetworkSide(int side, double scale, int step) {
@@ -171,6 +172,8 @@ Detections ObjectDetector::Detect(const core::Image& photo) const {
   const DetectedPixels pixels = PixelsOf(output, width, height);
   Detections found;
   found.objects = ObjectsOf(pixels, GroupPixels(pixels), photo);
+  found.left_out = static_cast<int>(std::erase_if(
+      found.objects, [](const Detection& object) { return object.confidence < kLeastConfidence; }));
   RefineOutlines(photo, &found.objects);
   found.camera = GuessOf(output);
   double covered = 0.0;

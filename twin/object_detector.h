@@ -24,6 +24,7 @@ struct Detections {
   std::vector<Detection> objects;  // the largest first
   TableCameraGuess camera;
   double object_share = 0.0;  // of the photo's pixels
+  int left_out = 0;           // places that look like objects, with too little confidence
 };
 
 // Finds the objects in a photo of a table, and guesses the camera: one small network, some tenths

@@ -202,6 +202,13 @@ class TableBench {
     const std::vector<int> matched = MatchedDetections(found.objects, truth);
     sums_.truths += static_cast<int>(truth.size());
     for (const int match : matched) (match >= 0 ? sums_.found : sums_.wrong) += 1;
+    if (options_.detections_only) {
+      for (size_t k = 0; k < matched.size(); ++k) {
+        std::printf("%d detection of confidence %.2f, %.0f pixels: %s\n", number,
+                    found.objects[k].confidence, found.objects[k].box.volume(),
+                    matched[k] < 0 ? "wrong" : "right");
+      }
+    }
     if (found.objects.empty() || options_.detections_only) {
       Keep(number, SideBySide(picture.color, DetectionsPicture(picture.color, found)));
       return;
