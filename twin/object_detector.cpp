@@ -1,6 +1,7 @@
 #include "twin/object_detector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -16,6 +17,10 @@ namespace {
 
 constexpr int kInsideAlpha = 128;
 constexpr double kLeastConfidence = 0.45;
+// The sides of the pictures that the network sees, over those of its training: the coarse one shows
+// large objects whole, the fine one shows small objects.
+constexpr std::array kScales = {1.0, 1.5};
+constexpr double kSameObject = 0.3;               // of the smaller mask, which two detections share
 constexpr double kNetworkPixels = 256.0 * 192.0;  // of the pictures on which it was trained
 
 int NetworkSide(int side, double scale, int step) {
@@ -34,14 +39,15 @@ float ValueAt(const std::vector<float>& values, int width, int height, double x,
          ty * ((1.0f - tx) * at(x0, y1) + tx * at(x1, y1));
 }
 
-DetectedPixels PixelsOf(const DetectorOutput& output, int width, int height) {
+DetectedPixels PixelsOf(const DetectorOutput& output) {
   DetectedPixels pixels;
-  pixels.width = width;
-  pixels.height = height;
+  const auto width = output.object.size(3), height = output.object.size(2);
+  pixels.width = static_cast<int>(width);
+  pixels.height = static_cast<int>(height);
   const torch::Tensor object = torch::sigmoid(output.object).contiguous();
   const torch::Tensor centre = torch::sigmoid(output.centre).contiguous();
   const torch::Tensor offset = output.offset.contiguous();
-  const size_t count = static_cast<size_t>(width) * height;
+  const auto count = static_cast<size_t>(width * height);
   pixels.object.assign(object.data_ptr<float>(), object.data_ptr<float>() + count);
   pixels.centre.assign(centre.data_ptr<float>(), centre.data_ptr<float>() + count);
   const float* of = offset.data_ptr<float>();
@@ -110,9 +116,6 @@ std::vector<Detection> ObjectsOf(const DetectedPixels& pixels, const PixelGroups
                            box.max().x() > photo.width - 2 || box.max().y() > photo.height - 2);
   }
   std::erase_if(objects, [](const Detection& object) { return object.box.isEmpty(); });
-  std::stable_sort(objects.begin(), objects.end(), [](const Detection& a, const Detection& b) {
-    return a.box.volume() > b.box.volume();
-  });
   return objects;
 }
 
@@ -145,6 +148,47 @@ void RefineOutlines(const core::Image& photo, std::vector<Detection>* objects) {
 struct ObjectDetector::Network {
   DetectorNetworkOptions sizes;
   DetectorNetwork net{nullptr};
+
+  // Returns the mean of the answers for the photo and its mirror image at all scales, in the pixels
+  // of the finest one; the camera's at the first scale.
+  DetectorOutput Look(const core::Image& photo) {
+    const std::vector<std::int64_t> finest = SidesAt(photo, kScales.back());
+    DetectorOutput mean;
+    for (const double scale : kScales) {
+      const std::vector<std::int64_t> sides = SidesAt(photo, scale);
+      const core::Image seen =
+          core::Resize(photo, static_cast<int>(sides[1]), static_cast<int>(sides[0]));
+      const torch::Tensor picture =
+          DetectorPictures(seen.pixels.data(), 1, seen.height, seen.width);
+      const DetectorOutput straight =
+          scale == kScales.front() ? net->Detect(picture) : net->DetectPixels(picture);
+      const DetectorOutput mirrored = net->DetectPixels(torch::flip(picture, {3}));
+      const torch::Tensor sign = torch::tensor({-1.0f, 1.0f}).reshape({1, 2, 1, 1});
+      const auto add = [&](const torch::Tensor& one, const torch::Tensor& other, double factor,
+                           torch::Tensor* sum) {
+        const torch::Tensor both = one + torch::flip(other, {3});
+        const torch::Tensor large = torch::upsample_bilinear2d(both, finest, false) *
+                                    (factor / (2.0 * static_cast<double>(kScales.size())));
+        *sum = sum->defined() ? *sum + large : large;
+      };
+      add(straight.object, mirrored.object, 1.0, &mean.object);
+      add(straight.centre, mirrored.centre, 1.0, &mean.centre);
+      add(straight.offset, sign * mirrored.offset,
+          static_cast<double>(finest[1]) / static_cast<double>(sides[1]), &mean.offset);
+      if (scale != kScales.front()) continue;
+      mean.camera = straight.camera;
+      mean.log_b = straight.log_b;
+    }
+    return mean;
+  }
+
+ private:
+  // Returns height and width.
+  std::vector<std::int64_t> SidesAt(const core::Image& photo, double scale) const {
+    const double factor = scale * std::sqrt(kNetworkPixels / photo.width / photo.height);
+    return {NetworkSide(photo.height, factor, sizes.side_step()),
+            NetworkSide(photo.width, factor, sizes.side_step())};
+  }
 };
 
 ObjectDetector::ObjectDetector(const std::filesystem::path& weights)
@@ -162,18 +206,15 @@ Detections ObjectDetector::Detect(const core::Image& photo) const {
     throw core::Error("a photo of a table must be an RGB picture of at least 64 pixels a side");
   }
   const torch::NoGradGuard no_grad;
-  const double scale = std::sqrt(kNetworkPixels / photo.width / photo.height);
-  const int step = network_->sizes.side_step();
-  const int width = NetworkSide(photo.width, scale, step);
-  const int height = NetworkSide(photo.height, scale, step);
-  const core::Image seen = core::Resize(photo, width, height);
-  const DetectorOutput output =
-      network_->net->Detect(DetectorPictures(seen.pixels.data(), 1, height, width));
-  const DetectedPixels pixels = PixelsOf(output, width, height);
+  const DetectorOutput output = network_->Look(photo);
+  const DetectedPixels pixels = PixelsOf(output);
   Detections found;
   found.objects = ObjectsOf(pixels, GroupPixels(pixels), photo);
   found.left_out = static_cast<int>(std::erase_if(
       found.objects, [](const Detection& object) { return object.confidence < kLeastConfidence; }));
+  std::stable_sort(
+      found.objects.begin(), found.objects.end(),
+      [](const Detection& a, const Detection& b) { return a.box.volume() > b.box.volume(); });
   RefineOutlines(photo, &found.objects);
   found.camera = GuessOf(output);
   double covered = 0.0;

@@ -202,13 +202,7 @@ class TableBench {
     const std::vector<int> matched = MatchedDetections(found.objects, truth);
     sums_.truths += static_cast<int>(truth.size());
     for (const int match : matched) (match >= 0 ? sums_.found : sums_.wrong) += 1;
-    if (options_.detections_only) {
-      for (size_t k = 0; k < matched.size(); ++k) {
-        std::printf("%d detection of confidence %.2f, %.0f pixels: %s\n", number,
-                    found.objects[k].confidence, found.objects[k].box.volume(),
-                    matched[k] < 0 ? "wrong" : "right");
-      }
-    }
+    if (options_.detections_only) PrintDetections(number, scene, found, matched, truth, indices);
     if (found.objects.empty() || options_.detections_only) {
       Keep(number, SideBySide(picture.color, DetectionsPicture(picture.color, found)));
       return;
@@ -227,6 +221,25 @@ class TableBench {
     sums_.elevation.push_back(std::abs(table.camera.elevation - camera.elevation));
     sums_.focal.push_back(std::abs(std::log(table.camera.focal / camera.focal)));
     sums_.height.push_back(std::abs(std::log(table.camera.height / camera.height)));
+  }
+
+  static void PrintDetections(int number, const twin::TableScene& scene,
+                              const twin::Detections& found, const std::vector<int>& matched,
+                              const std::vector<twin::Detection>& truth,
+                              const std::vector<int>& indices) {
+    for (size_t k = 0; k < matched.size(); ++k) {
+      std::printf("%d detection of confidence %.2f: %s\n", number, found.objects[k].confidence,
+                  matched[k] < 0 ? "wrong" : "right");
+    }
+    for (size_t k = 0; k < truth.size(); ++k) {
+      if (std::count(matched.begin(), matched.end(), static_cast<int>(k)) > 0) continue;
+      const std::vector<std::uint8_t>& alpha = truth[k].alpha.pixels;
+      const auto pixels = std::count_if(alpha.begin(), alpha.end(), [](int a) { return a > 127; });
+      const twin::TableObject& object = scene.objects[static_cast<size_t>(indices[k])];
+      std::printf("%d missed %s, %td pixels\n", number,
+                  library_fit::FitKinds()[static_cast<size_t>(object.instance.kind)].name.c_str(),
+                  pixels);
+    }
   }
 
   void Settle(int number, const core::Image& photo, const twin::Detections& found,
