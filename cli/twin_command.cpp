@@ -3,6 +3,7 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "cli/language_model_options.h"
 #include "cli/number_validators.h"
 #include "cli/usage.h"
 #include "core/json.h"
@@ -11,7 +12,16 @@
 namespace simwright::cli {
 namespace {
 
-int Twin(workflows::TwinRequest request, const CommonOptions& common) {
+struct TwinFlags {
+  workflows::TwinRequest request;
+  LanguageModelOptions vision;
+};
+
+int Twin(const TwinFlags& flags, const CommonOptions& common) {
+  workflows::TwinRequest request = flags.request;
+  std::unique_ptr<llm::ChatModel> model;
+  if (flags.vision.given()) model = MakeLanguageModel(flags.vision, common);
+  request.model = model.get();
   request.seed = common.seed;
   request.force = common.force;
   core::Progress progress(common.ProgressStyle());
@@ -26,6 +36,7 @@ int Twin(workflows::TwinRequest request, const CommonOptions& common) {
   }
   if (!common.quiet) std::fputs(workflows::TwinTable(outcome).c_str(), stdout);
   PrintFindings(outcome.findings, common);
+  if (model != nullptr && !common.quiet) std::printf("%s\n", UsageLine(model->usage()).c_str());
   std::printf("%s\n", outcome.page.c_str());
   return 0;
 }
@@ -33,11 +44,14 @@ int Twin(workflows::TwinRequest request, const CommonOptions& common) {
 }  // namespace
 
 void AddTwin(CLI::App* app, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<workflows::TwinRequest>();
+  auto flags = std::make_shared<TwinFlags>();
+  workflows::TwinRequest* request = &flags->request;
   CLI::App* command = app->add_subcommand("twin", "Rebuild the objects on a table from one photo");
   command->footer(
-      "Example (true sizes, with a camera 62 cm above the table):\n"
+      "Examples (true sizes, with a camera 62 cm above the table or a depth camera):\n"
       "  simwright twin table.jpg --objects boxes.json --camera-height 0.62 -o twin\n"
+      "  simwright twin table.png --depth depth.png --camera camera_info.yaml -o twin\n"
+      "  simwright twin table.jpg --llm http://localhost:8080/v1 --assets my_assets -o twin\n"
       "  simwright view twin/twin.json\n"
       "boxes.json: {\"objects\": [{\"box\": [112, 140, 168, 201], \"category\": \"mug\"}]}");
   command->add_option("photo", request->photo, "A photo of a table, from above")->required();
@@ -45,6 +59,20 @@ void AddTwin(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("--objects", request->objects,
                       "JSON file with boxes, categories and masks, in place of the detector "
                       "(docs/twin.md)");
+  command->add_option("--depth", request->depth,
+                      "Depth image of the photo, 16-bit PNG of the same aspect: gives the table's "
+                      "plane, the scale and the objects");
+  command->add_option("--depth-scale", request->depth_unit, "Metres of one step of --depth")
+      ->check(Positive())
+      ->capture_default_str();
+  command->add_option("--camera", request->intrinsics,
+                      "Calibration: JSON or YAML with fx, fy, cx, cy, or camera_info of ROS");
+  command->add_option("--assets", request->assets,
+                      "Asset folders, or folders of them: objects that are among them are found "
+                      "again, with their true size");
+  command->add_flag("--free-form", request->free_form,
+                    "Reconstruct doubtful objects from the photo, about a minute each, in place of "
+                    "the nearest kind");
   command->add_option("--fov", request->camera.fov, "Horizontal field of view, degrees")
       ->default_str("from EXIF, else estimated");
   command
@@ -63,9 +91,10 @@ void AddTwin(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("--most-objects", request->most_objects, "The largest detections are rebuilt")
       ->check(Positive())
       ->capture_default_str();
+  AddLanguageModel(command, &flags->vision);
   AddCommon(command, common);
   AddForce(command, common);
-  command->callback([request, common, run] { *run = [=] { return Twin(*request, *common); }; });
+  command->callback([flags, common, run] { *run = [=] { return Twin(*flags, *common); }; });
 }
 
 }  // namespace simwright::cli

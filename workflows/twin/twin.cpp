@@ -1,5 +1,6 @@
 #include "workflows/twin/twin.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +11,9 @@
 #include "core/files.h"
 #include "core/image.h"
 #include "library_fit/library_prior.h"
+#include "twin/asset_retrieval.h"
+#include "twin/depth_agreement.h"
+#include "twin/depth_objects.h"
 #include "twin/object_detector.h"
 #include "twin/table_reconstruction.h"
 #include "workflows/priors/models_folder.h"
@@ -17,6 +21,7 @@
 #include "workflows/twin/twin_detections.h"
 #include "workflows/twin/twin_objects.h"
 #include "workflows/twin/twin_page.h"
+#include "workflows/twin/twin_photo.h"
 #include "workflows/twin/twin_pictures.h"
 #include "workflows/twin/twin_settling.h"
 
@@ -25,89 +30,59 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kDegreeInRadian = M_PI / 180.0;
-constexpr int kLongerSide = 960;     // pixels of the photo as used
-constexpr double kFilmWidth = 36.0;  // mm, of EXIF's equivalent focal length
-constexpr double kExifError = 0.03;  // of the logarithm of such a focal length
-constexpr std::uint64_t kMostPhotoBytes = 256u << 20;
+constexpr double kDoubtful = 0.25;    // confidence
 constexpr double kLeastShare = 2e-4;  // of the photo's pixels that show objects
 
-// The photo in RGB, and what its file says.
-struct TwinPhoto {
-  core::Image rgb;
-  int width = 0, height = 0;  // of the file
-  double focal_35mm = 0.0;
-};
-
-core::Image InRgb(const core::Image& image) {
-  if (image.channels == 3) return image;
-  core::Image rgb(image.width, image.height, 3);
-  for (size_t i = 0; i < rgb.pixels.size() / 3; ++i) {
-    for (size_t c = 0; c < 3; ++c) {
-      rgb.pixels[3 * i + c] =
-          image.pixels[i * static_cast<size_t>(image.channels) + (image.channels == 4 ? c : 0)];
-    }
-  }
-  return rgb;
-}
-
-TwinPhoto ReadTwinPhoto(const fs::path& path) {
-  TwinPhoto photo;
-  const std::string bytes = core::ReadFile(path, kMostPhotoBytes);
-  const core::Image whole = core::DecodeImage(bytes, path.string());
-  photo.width = whole.width;
-  photo.height = whole.height;
-  photo.focal_35mm = core::ExifFocalLength35mm(bytes);
-  const double scale =
-      std::min(1.0, static_cast<double>(kLongerSide) / std::max(whole.width, whole.height));
-  photo.rgb = InRgb(whole);
-  if (scale < 1.0) {
-    photo.rgb = core::Resize(photo.rgb, static_cast<int>(std::lround(scale * whole.width)),
-                             static_cast<int>(std::lround(scale * whole.height)));
-  }
-  if (photo.rgb.width < 64 || photo.rgb.height < 64) {
-    throw core::Error("the photo has less than 64 pixels a side", path.string());
-  }
-  return photo;
-}
-
+// Finds the objects by the first that is given: the user's boxes, the vision model, the user's
+// detector, the depth, the shipped detector.
 TwinDetections DetectObjects(const TwinRequest& request, const TwinPhoto& photo,
-                             core::Progress* progress) {
+                             core::Progress* progress, core::Findings* findings) {
   progress->Stage("detecting objects");
   const fs::path weights =
       request.detector.empty() ? DetectorWeights(ModelsFolder()) : request.detector;
   const bool has_weights = fs::exists(weights);
-  if (!request.detector.empty() && !has_weights && request.objects.empty()) {
+  const bool stated = !request.objects.empty() || request.model != nullptr;
+  if (!request.objects.empty() && request.model != nullptr) {
+    throw core::Error("boxes are given, so the vision model has nothing to do",
+                      request.objects.string(), "leave out --objects or --llm");
+  }
+  if (!request.detector.empty() && !has_weights && !stated) {
     throw core::Error("no such weights of a detector", weights.string());
   }
-  if (!request.objects.empty()) {
-    TwinDetections stated = ReadTwinObjects(request.objects, photo.rgb, photo.width, photo.height);
-    if (has_weights) {
-      stated.found.camera = twin::ObjectDetector(weights).Detect(photo.rgb).camera;
-    }
-    return stated;
-  }
-  if (!has_weights) {
-    throw core::Error("the weights of the table detector are missing", weights.string(),
-                      "simwright prior train --only detector -o models makes them; --objects gives "
-                      "boxes instead");
-  }
   TwinDetections detected;
-  detected.found = twin::ObjectDetector(weights).Detect(photo.rgb);
+  if (!request.objects.empty()) {
+    detected = ReadTwinObjects(request.objects, photo.rgb, photo.width, photo.height);
+  } else if (request.model != nullptr) {
+    detected = AskForTwinObjects(request.model, photo, progress, findings);
+  } else if (photo.plane && request.detector.empty()) {
+    detected.found.objects = twin::ObjectsAbovePlane(photo.depth, *photo.plane);
+  } else if (has_weights) {
+    detected.found = twin::ObjectDetector(weights).Detect(photo.rgb);
+    if (detected.found.object_share < kLeastShare) detected.found.objects.clear();
+    return detected;
+  } else {
+    throw core::Error("the weights of the table detector are missing", weights.string(),
+                      "simwright prior train --only detector -o models makes them; --objects, "
+                      "--llm or --depth find the objects without it");
+  }
+  if (has_weights && !photo.plane) {
+    detected.found.camera = twin::ObjectDetector(weights).Detect(photo.rgb).camera;
+  }
   return detected;
 }
 
-// Replaces guessed numbers by what the user and the file know.
+// Replaces guessed numbers by what the user and the files know.
 void StateCamera(const TwinCameraFlags& flags, const TwinPhoto& photo,
-                 twin::TableCameraGuess* guess, core::Findings* findings) {
+                 twin::TableCameraGuess* guess) {
+  if (photo.plane) {
+    *guess = {photo.plane->camera, 0.0, 0.0, 0.0, 0.0};
+    return;
+  }
   twin::TableCamera& camera = guess->camera;
-  if (flags.fov > 0.0) {
-    camera.focal = 0.5 / std::tan(0.5 * flags.fov * kDegreeInRadian);
-    guess->log_focal_error = 0.0;
-  } else if (photo.focal_35mm > 0.0) {
-    // The equivalent refers to the longer side.
-    const double longer = std::max(photo.width, photo.height);
-    camera.focal = photo.focal_35mm / kFilmWidth * longer / photo.width;
-    guess->log_focal_error = kExifError;
+  camera.principal = photo.principal;
+  if (photo.focal > 0.0) {
+    camera.focal = photo.focal;
+    guess->log_focal_error = photo.log_focal_error;
   }
   if (flags.elevation > 0.0) {
     camera.elevation = flags.elevation * kDegreeInRadian;
@@ -120,19 +95,27 @@ void StateCamera(const TwinCameraFlags& flags, const TwinPhoto& photo,
   if (flags.height > 0.0) {
     camera.height = flags.height;
     guess->log_height_error = 0.0;
-    return;
   }
+}
+
+// Reports a scale that nothing determined.
+void ReportScale(const twin::TableCameraGuess& guess, core::Findings* findings) {
+  const bool from_assets = std::any_of(
+      findings->begin(), findings->end(),
+      [](const core::Finding& finding) { return finding.code == "twin-scale-from-assets"; });
+  if (guess.log_height_error <= 0.0 || from_assets) return;
   findings->push_back({"twin-scale-guessed", core::Severity::kInfo, "",
                        "the camera's height above the table is not known; the scale is that with "
                        "which the objects have usual sizes",
-                       0.0, "--camera-height gives true sizes"});
+                       0.0, "--camera-height or --depth give true sizes"});
 }
 
 core::Findings KindFindings(const twin::TableReconstruction& table) {
-  constexpr double kDoubtful = 0.25;
   core::Findings findings;
+  size_t doubtful = 0;
   for (const twin::ReconstructedObject& object : table.objects) {
     if (object.confidence >= kDoubtful) continue;
+    ++doubtful;
     const std::string& kind =
         library_fit::FitKinds()[static_cast<size_t>(object.fit.instance.kind)].name;
     char sentence[160];
@@ -140,9 +123,41 @@ core::Findings KindFindings(const twin::TableReconstruction& table) {
                   "object %d is doubtful: taken for a %s with confidence %.2f, outline IoU %.2f",
                   object.detection + 1, kind.c_str(), object.confidence, object.fit.agreement.iou);
     findings.push_back({"twin-doubtful", core::Severity::kWarning, "", sentence, object.confidence,
-                        "--objects states its box and category"});
+                        "--objects states its box and category; --free-form reconstructs it"});
+  }
+  if (doubtful == table.objects.size()) {
+    findings.push_back({"twin-no-table", core::Severity::kWarning, "",
+                        "no object agrees well with the photo: it may show no table, or a wall, a "
+                        "mirror or a screen",
+                        static_cast<double>(doubtful), "compare overlay.png with the photo"});
   }
   return findings;
+}
+
+// Rebuilds the detected objects, with the user's assets where they are found again.
+twin::TableReconstruction Reconstruct(const TwinRequest& request, const TwinPhoto& photo,
+                                      const TwinDetections& detected,
+                                      const std::vector<twin::TableAsset>& assets,
+                                      core::Progress* progress, core::Findings* findings) {
+  const library_fit::LibraryPrior prior(LibraryWeights(ModelsFolder()));
+  twin::TableReconstructionOptions options;
+  options.kinds = detected.kinds;
+  options.seed = request.seed;
+  twin::TableReconstruction table =
+      twin::ReconstructTable(photo.rgb, detected.found, prior, options, progress);
+  const auto report = [findings](const core::Findings& more) {
+    findings->insert(findings->end(), more.begin(), more.end());
+  };
+  if (photo.plane) report(twin::CompareWithDepth(table, detected.found, photo.depth));
+  if (!assets.empty()) {
+    progress->Stage("assets of yours", static_cast<std::int64_t>(table.objects.size()));
+    twin::RetrievalOptions retrieval;
+    retrieval.seed = request.seed;
+    twin::RetrieveAssets(photo.rgb, detected.found, assets, retrieval, &table, progress, findings);
+  }
+  report(KindFindings(table));
+  ReportScale(detected.found.camera, findings);
+  return table;
 }
 
 void WriteTwinFiles(const TwinOutcome& outcome, const core::Image& photo, const fs::path& folder) {
@@ -180,32 +195,28 @@ TwinOutcome MakeTwin(const TwinRequest& request, core::Progress* progress) {
   if (!request.camera.IsValid(&error)) throw core::Error(error, "camera of the photo");
   const auto start = std::chrono::steady_clock::now();
   core::StagedFolder staged(request.output, request.force);
-  const TwinPhoto photo = ReadTwinPhoto(request.photo);
-  TwinDetections detected = DetectObjects(request, photo, progress);
   TwinOutcome outcome;
-  if (detected.found.objects.empty() ||
-      (request.objects.empty() && detected.found.object_share < kLeastShare)) {
+  const TwinPhoto photo = ReadTwinPhoto(request, &outcome.findings);
+  std::vector<twin::TableAsset> own;
+  if (!request.assets.empty()) own = twin::ReadTableAssets(request.assets, &outcome.findings);
+  TwinDetections detected = DetectObjects(request, photo, progress, &outcome.findings);
+  if (detected.found.objects.empty()) {
     throw core::Error("no object on a table is found in the photo", request.photo.string(),
                       "take it from above so that the whole table top shows, in even light, or "
                       "give boxes with --objects");
   }
   LimitDetections(request.most_objects, &detected, &outcome.findings);
-  StateCamera(request.camera, photo, &detected.found.camera, &outcome.findings);
-  const library_fit::LibraryPrior prior(LibraryWeights(ModelsFolder()));
-  twin::TableReconstructionOptions options;
-  options.kinds = detected.kinds;
-  options.seed = request.seed;
+  StateCamera(request.camera, photo, &detected.found.camera);
   const twin::TableReconstruction table =
-      twin::ReconstructTable(photo.rgb, detected.found, prior, options, progress);
-  const core::Findings doubtful = KindFindings(table);
-  outcome.findings.insert(outcome.findings.end(), doubtful.begin(), doubtful.end());
+      Reconstruct(request, photo, detected, own, progress, &outcome.findings);
   progress->Stage("assets", static_cast<std::int64_t>(table.objects.size()));
   outcome.record.photo = request.photo.filename().string();
   outcome.record.camera = table.camera.At(photo.rgb.width, photo.rgb.height);
   outcome.record.log_scale_error = table.log_scale_error;
   const fs::path assets = staged.staging() / "assets";
-  outcome.record.objects = WriteTwinAssets(table, photo.rgb, detected.found, request.seed, assets,
-                                           progress, &outcome.findings);
+  const TwinAssetSources sources{
+      table, photo.rgb, detected.found, own, request.free_form ? kDoubtful : 0.0, request.seed};
+  outcome.record.objects = WriteTwinAssets(sources, assets, progress, &outcome.findings);
   if (outcome.record.objects.empty()) {
     throw core::Error("no asset could be made of the photo's objects", request.photo.string());
   }

@@ -8,6 +8,7 @@
 
 #include "core/finding.h"
 #include "core/progress.h"
+#include "llm/chat_model.h"
 #include "workflows/twin/twin_record.h"
 
 namespace simwright::workflows {
@@ -25,9 +26,16 @@ struct TwinCameraFlags {
 
 struct TwinRequest {
   std::filesystem::path photo;
+  std::filesystem::path depth;       // of the photo's pixels, 16 bits; empty: none
+  double depth_unit = 1e-3;          // m, of one step of the depth
+  std::filesystem::path intrinsics;  // calibration (twin/camera_intrinsics.h); empty: none
   // The user's boxes, masks and categories (docs/twin.md) in place of the detector; empty: none.
   std::filesystem::path objects;
-  std::filesystem::path detector;  // weights; empty: the shipped ones
+  std::filesystem::path detector;   // weights; empty: the shipped ones
+  llm::ChatModel* model = nullptr;  // names the objects and their boxes; null: the detector
+  // Asset folders, or folders of them, of which some may stand on the table; empty: none.
+  std::vector<std::filesystem::path> assets;
+  bool free_form = false;  // reconstructs doubtful objects as `lift` does
   TwinCameraFlags camera;
   int most_objects = 25;  // the largest detections are kept
   std::uint64_t seed = 1;
@@ -44,8 +52,9 @@ struct TwinOutcome {
 
 // Rebuilds the table that a photo shows: a folder with an asset for each object, twin.json with
 // their poses and uncertainties (which the commands of `scene` read), twin.png and index.html.
-// Throws core::Error for an unreadable photo, one without an object on a table, damaged boxes or
-// weights, and an output that exists; throws core::Cancelled.
+// Throws core::Error for an unreadable or dark photo, one without an object on a table, a depth
+// without a table, damaged boxes or weights, and an output that exists; throws core::Cancelled and
+// what the model throws.
 TwinOutcome MakeTwin(const TwinRequest& request, core::Progress* progress);
 
 // Formats the outcome for a terminal: a line for each object.
