@@ -48,7 +48,7 @@ struct RenderableAsset {
   render::Scene scene;
 };
 
-Eigen::Vector3f LinearColor(const Eigen::Vector3f& display) {
+Eigen::Vector3f LinearOfDisplay(const Eigen::Vector3f& display) {
   return display.array().max(0.0f).pow(static_cast<float>(kDisplayGamma));
 }
 
@@ -74,8 +74,9 @@ AssetAgreement Compare(const render::Scene& scene, const ScaledPose& pose,
     shared += theirs;
     if (theirs < kInsideObject) continue;
     const std::uint8_t* pixel = &seen.color.pixels[4 * i];
-    const Eigen::Vector3f own = LinearColor(Eigen::Vector3f(pixel[0], pixel[1], pixel[2]) / 255.0f);
-    const Eigen::Vector3f photo = LinearColor(target.color[i]);
+    const Eigen::Vector3f own =
+        LinearOfDisplay(Eigen::Vector3f(pixel[0], pixel[1], pixel[2]) / 255.0f);
+    const Eigen::Vector3f photo = LinearOfDisplay(target.color[i]);
     const Eigen::Vector4d light(1.0, seen.normal[i].x(), seen.normal[i].y(), seen.normal[i].z());
     products += own.squaredNorm() * light * light.transpose();
     sums += own.dot(photo) * light;

@@ -19,9 +19,9 @@ constexpr double kSeedDeviations = 3.0, kGrownDeviations = 2.0;
 constexpr double kTallest = 0.6;        // m: what is higher is no object on the table
 constexpr double kInsideTable = 0.004;  // m from the table's edge: beyond may be a wall
 constexpr double kSamePiece = 0.012, kSamePieceGrowth = 0.01;  // m of depth, and per m
-constexpr double kSmallShare = 0.25;    // of its neighbour's pixels: a piece may be part of it
-constexpr double kPartDistance = 0.06;  // m of depth between an object's handle and its body
-constexpr double kLeastPixels = 3e-4;   // of the picture's
+constexpr double kSmallShare = 0.25;       // of its neighbour's pixels: a piece may be part of it
+constexpr double kPartDistance = 0.06;     // m of depth between an object's handle and its body
+constexpr double kLeastPieceShare = 3e-4;  // of the picture's
 constexpr int kFewestPixels = 24;
 constexpr double kLargePlanePiece = 0.03;  // of the plane's pixels: smaller ones are accidents
 
@@ -34,8 +34,8 @@ struct Pieces {
 };
 
 // Labels the pixels for which `takes` holds; neighbours are of one piece if `joined` holds.
-Pieces Label(int width, int height, const std::function<bool(Index)>& takes,
-             const std::function<bool(Index, Index)>& joined) {
+Pieces LabelPieces(int width, int height, const std::function<bool(Index)>& takes,
+                   const std::function<bool(Index, Index)>& joined) {
   Pieces pieces;
   pieces.of_pixel.assign(static_cast<Index>(width) * height, -1);
   for (Index start = 0; start < pieces.of_pixel.size(); ++start) {
@@ -99,7 +99,7 @@ class DepthRelief {
       return depth_.values[at] > 0.0f && std::abs(height_[at]) <= grown_;
     };
     const Pieces pieces =
-        Label(depth_.width, depth_.height, flat, [](Index, Index) { return true; });
+        LabelPieces(depth_.width, depth_.height, flat, [](Index, Index) { return true; });
     Index all = 0;
     for (const std::vector<Index>& pixels : pieces.pixels) all += pixels.size();
     std::vector<Eigen::Vector2d> points;
@@ -171,7 +171,7 @@ Detection DetectionOf(const std::vector<Index>& pixels, const core::FloatImage& 
            detection.box.contains(middle);
   };
   const Pieces holes =
-      Label(depth.width, depth.height, unmeasured, [](Index, Index) { return true; });
+      LabelPieces(depth.width, depth.height, unmeasured, [](Index, Index) { return true; });
   for (const std::vector<Index>& hole : holes.pixels) {
     const bool enclosed = std::all_of(hole.begin(), hole.end(), [&](Index at) {
       const Index width = static_cast<Index>(depth.width);
@@ -192,7 +192,7 @@ Detection DetectionOf(const std::vector<Index>& pixels, const core::FloatImage& 
 
 std::vector<Detection> ObjectsAbovePlane(const core::FloatImage& depth, const DepthPlane& plane) {
   const DepthRelief relief(depth, plane);
-  const Pieces pieces = Label(
+  const Pieces pieces = LabelPieces(
       depth.width, depth.height, [&](Index at) { return relief.IsObject(at); },
       [&](Index a, Index b) { return relief.Joined(a, b); });
   const std::vector<int> merged = MergedPieces(pieces, relief, depth.width);
@@ -202,7 +202,7 @@ std::vector<Detection> ObjectsAbovePlane(const core::FloatImage& depth, const De
     object.insert(object.end(), pieces.pixels[k].begin(), pieces.pixels[k].end());
   }
   const double least =
-      std::max<double>(kFewestPixels, kLeastPixels * static_cast<double>(depth.values.size()));
+      std::max<double>(kFewestPixels, kLeastPieceShare * static_cast<double>(depth.values.size()));
   std::vector<std::vector<Index>> kept;
   for (auto& [piece, pixels] : objects) {
     const auto seeds =

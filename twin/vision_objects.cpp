@@ -73,7 +73,7 @@ bool IsSurroundings(const std::string& name) {
 }
 
 // Returns the four numbers of an object's box; false if they are none.
-bool BoxNumbers(const core::Json& object, Eigen::Vector4d* numbers) {
+bool AnsweredBox(const core::Json& object, Eigen::Vector4d* numbers) {
   for (const char* member : {"box", "bbox", "bbox_2d", "box_2d"}) {
     const core::Json* found = core::FindMember(object, member);
     if (found == nullptr) continue;
@@ -178,7 +178,7 @@ bool ReadVisionAnswer(std::string_view answer, int width, int height, VisionObje
   double largest = 0.0;
   for (const core::Json& element : *list) {
     Eigen::Vector4d numbers;
-    if (BoxNumbers(element, &numbers)) largest = std::max(largest, numbers.maxCoeff());
+    if (AnsweredBox(element, &numbers)) largest = std::max(largest, numbers.maxCoeff());
   }
   const bool shares = largest > 0.0 && largest <= 1.0;
   VisionObjects read;
@@ -198,7 +198,7 @@ bool ReadVisionAnswer(std::string_view answer, int width, int height, VisionObje
     BoxFault wrong = BoxFault::kNumbers;
     if (IsSurroundings(object.name)) {
       wrong = BoxFault::kTable;
-    } else if (BoxNumbers(element, &numbers)) {
+    } else if (AnsweredBox(element, &numbers)) {
       if (shares) numbers = numbers.cwiseProduct(Eigen::Vector4d(width, height, width, height));
       wrong = PlaceBox(numbers, width, height, read.boxes, &object.box);
     }

@@ -18,8 +18,8 @@ const TableCamera kSeen{0.62, 0.0, 1.15, 0.7};
 TableAsset AssetOf(const char* kind, std::uint64_t seed, const Eigen::Vector4f& color) {
   TableAsset asset;
   asset.name = kind;
-  asset.visual = library_fit::InstanceMesh(
-      library_fit::SampleInstance(library_fit::FindFitKind(kind), seed));
+  asset.visual =
+      library_fit::InstanceMesh(library_fit::SampleInstance(library_fit::FindFitKind(kind), seed));
   for (core::Material& material : asset.visual.materials) {
     material.texture = -1;
     material.base_color = color;

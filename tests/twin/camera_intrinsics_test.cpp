@@ -49,14 +49,13 @@ TEST_F(CameraIntrinsicsFile, IsScaledToThePhoto) {
   EXPECT_NEAR(ros.principal.x(), 650.5 / 1280.0, 1e-12);
   EXPECT_NEAR(ros.principal.y(), 470.25 / 960.0, 1e-12);
   EXPECT_TRUE(ros.findings.empty());
-  const CameraIntrinsics flat =
-      Read(R"({"fx": 600, "fy": 600.0, "cx": 320, "cy": 240, "width": 640, "height": 480})", 1280,
-           960);
+  const CameraIntrinsics flat = Read(
+      R"({"fx": 600, "fy": 600.0, "cx": 320, "cy": 240, "width": 640, "height": 480})", 1280, 960);
   EXPECT_NEAR(flat.focal, 600.0 / 640.0, 1e-12);
   EXPECT_EQ(flat.principal, Eigen::Vector2d(0.5, 0.5));
-  const CameraIntrinsics message =
-      Read("header:\n  seq: 4\nheight: 480\nwidth: 640\nd:\n- 0.0\n- 0.0\nk:\n- 500.0\n- 0.0\n"
-           "- 310.0\n- 0.0\n- 500.0\n- 250.0\n- 0.0\n- 0.0\n- 1.0\n");
+  const CameraIntrinsics message = Read(
+      "header:\n  seq: 4\nheight: 480\nwidth: 640\nd:\n- 0.0\n- 0.0\nk:\n- 500.0\n- 0.0\n"
+      "- 310.0\n- 0.0\n- 500.0\n- 250.0\n- 0.0\n- 0.0\n- 1.0\n");
   EXPECT_NEAR(message.focal, 500.0 / 640.0, 1e-12);
   EXPECT_NEAR(message.principal.x(), 310.0 / 640.0, 1e-12);
   // Rows of a matrix, in JSON, for the photo itself.

@@ -109,8 +109,7 @@ TEST(ObjectsAbovePlane, FindsFortyObjects) {
   const core::FloatImage depth = DepthOf(table);
   TableCamera lens;
   lens.focal = high.focal;
-  const std::vector<Detection> found =
-      ObjectsAbovePlane(depth, FitTablePlane(depth, lens, 1, ""));
+  const std::vector<Detection> found = ObjectsAbovePlane(depth, FitTablePlane(depth, lens, 1, ""));
   EXPECT_EQ(found.size(), 40u);
 }
 

@@ -30,8 +30,7 @@ TEST(CheckTablePhoto, RefusesTheNight) {
     CheckTablePhoto(Dimmed(table.picture.color, 0.04), "photo.jpg");
     ADD_FAILURE() << "a black photo was taken";
   } catch (const core::Error& error) {
-    EXPECT_NE(std::string(error.what()).find("photo.jpg: the photo is too dark"),
-              std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("photo.jpg: the photo is too dark"), std::string::npos)
         << error.what();
   }
   EXPECT_THROW(CheckTablePhoto(core::Image(100, 80, 3, 200), "plain.png"), core::Error);

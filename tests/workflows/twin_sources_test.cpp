@@ -14,10 +14,10 @@
 #include "llm/make_chat_model.h"
 #include "physics_params/category_resolution.h"
 #include "program.h"
+#include "tests/llm/chat_server.h"  // last: see there
 #include "tests/twin/depth_pictures.h"
 #include "workflows/twin/twin.h"
 #include "workflows/twin/twin_free_form.h"
-#include "tests/llm/chat_server.h"  // last: see there
 
 namespace simwright::workflows {
 namespace {

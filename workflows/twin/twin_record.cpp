@@ -17,7 +17,7 @@ constexpr std::uint64_t kMostBytes = 8u << 20;
 
 constexpr const char* kSourceNames[] = {"fitted", "retrieved", "lifted"};
 
-TwinSource SourceOf(const core::JsonField& object) {
+TwinSource TwinSourceOf(const core::JsonField& object) {
   const std::string name = object.TextOr("source", kSourceNames[0]);
   for (int i = 0; i < 3; ++i) {
     if (name == kSourceNames[i]) return static_cast<TwinSource>(i);
@@ -74,7 +74,7 @@ TwinObject ReadObject(const core::JsonField& field) {
       field["asset"].Text() != "assets/" + object.name) {
     field["asset"].Fail("must be assets/ and the object's name, a name of a folder");
   }
-  object.source = SourceOf(field);
+  object.source = TwinSourceOf(field);
   object.kind = field["kind"].Name();
   object.category = field["category"].Name();
   object.world_from_object = PoseIn(field);
