@@ -31,7 +31,7 @@ namespace {
 
 constexpr double kDegreeInRadian = M_PI / 180.0;
 constexpr double kDoubtful = 0.25;    // confidence
-constexpr double kLeastShare = 2e-4;  // of the photo's pixels that show objects
+constexpr double kLeastObjectShare = 2e-4;  // of the photo's pixels that show objects
 
 // Finds the objects by the first that is given: the user's boxes, the vision model, the user's
 // detector, the depth, the shipped detector.
@@ -58,7 +58,7 @@ TwinDetections DetectObjects(const TwinRequest& request, const TwinPhoto& photo,
     detected.found.objects = twin::ObjectsAbovePlane(photo.depth, *photo.plane);
   } else if (has_weights) {
     detected.found = twin::ObjectDetector(weights).Detect(photo.rgb);
-    if (detected.found.object_share < kLeastShare) detected.found.objects.clear();
+    if (detected.found.object_share < kLeastObjectShare) detected.found.objects.clear();
     return detected;
   } else {
     throw core::Error("the weights of the table detector are missing", weights.string(),
