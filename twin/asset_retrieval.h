@@ -22,12 +22,12 @@ struct AssetAgreement {
 };
 
 struct RetrievalOptions {
-  int yaws = 20;           // tried for each asset
-  int refined = 4;         // starts of the search, of all assets together
-  int generations = 14;    // of CMA-ES over the pose
-  int side = 80;           // pixels per side of the compared crops
-  double least_iou = 0.8;  // of an asset that is taken
-  double most_color_error = 0.3;
+  int yaws = 20;                   // tried for each asset
+  int refined = 4;                 // starts of the search, of all assets together
+  int generations = 14;            // of CMA-ES over the pose
+  int side = 80;                   // pixels per side of the compared crops
+  double least_iou = 0.8;          // of an asset that is taken
+  double most_color_error = 0.42;  // the model lacks shadows within the asset
   // An asset is taken where its outline's IoU is that of the fitted kind of the library or less by
   // at most this: it has no shape to adapt.
   double iou_margin = 0.06;

@@ -10,7 +10,7 @@ namespace simwright::twin {
 namespace {
 
 constexpr double kBlackMean = 14.0, kDarkMean = 45.0;  // of 255
-constexpr double kPlainDeviation = 2.0;                // of 255
+constexpr double kPlainDeviation = 1.0;                // of 255
 constexpr double kWhite = 250.0, kMostWhite = 0.5;
 constexpr char kLightRemedy[] = "take it again in even light, without flash, the table in focus";
 

@@ -27,7 +27,10 @@ PlaneHull::PlaneHull(std::vector<Eigen::Vector2d> points) {
     corners_.push_back(point);
   };
   for (const Eigen::Vector2d& point : points) append(point, 0);
-  if (corners_.size() < 2) return corners_.clear();
+  if (corners_.size() < 2) {
+    corners_.clear();
+    return;
+  }
   const size_t turn = corners_.size() - 1;
   for (size_t i = points.size() - 1; i-- > 0;) append(points[i], turn);
   corners_.pop_back();

@@ -29,7 +29,7 @@ TEST(ReadVisionAnswer, TakesBoxesAndNames) {
   const VisionObjects read = ReadOf(
       "Here they are:\n```json\n{\"objects\": ["
       "{\"name\": \"Coffee Mug\", \"box\": [10, 20, 110, 140]},"
-      "{\"name\": \"banana\", \"box\": [300.5, 200, 420, 260.25]}]}\n```");
+      "{\"name\": \"bowl\", \"box\": [300.5, 200, 420, 260.25]}]}\n```");
   ASSERT_EQ(read.boxes.size(), 2u);
   EXPECT_TRUE(read.findings.empty());
   EXPECT_EQ(read.boxes[0].name, "coffee mug");
