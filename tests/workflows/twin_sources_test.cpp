@@ -122,6 +122,54 @@ TEST_F(TwinSources, WallsDarknessAndForeignDepthAreRefused) {
   EXPECT_NE(Refusal(request).find("too dark"), std::string::npos);
 }
 
+// The same table from two sides, with depth: the objects of both photos in one frame.
+TEST_F(TwinSources, TwoPhotosAreMerged) {
+  const twin::RenderedTable front = AppleAndBox();
+  // The second camera stands at (0.9, 0.3) and looks towards the objects: its frame is turned.
+  const double turn = 0.9;
+  const Eigen::Vector2d stand(0.75, 0.25);
+  twin::RenderedTable side;
+  for (const twin::TableObject& object : front.scene.objects) {
+    twin::TableObject moved = object;
+    Eigen::Isometry3d side_from_front = Eigen::Isometry3d::Identity();
+    side_from_front.linear() =
+        Eigen::AngleAxisd(-turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    side_from_front.translation().head<2>() = -(Eigen::Rotation2Dd(-turn) * stand);
+    moved.world_from_object = side_from_front * object.world_from_object;
+    side.scene.objects.push_back(moved);
+  }
+  side.scene.table.endless = true;
+  twin::Picture(kEye, &side);
+  TwinRequest request = RequestFor(front.picture.color);
+  request.camera.fov = 2.0 * std::atan(0.5 / kEye.focal) * 180.0 / M_PI;
+  request.depth = Path("depth.png");
+  twin::WriteDepth(request.depth, twin::DepthOf(front));
+  TwinView second;
+  second.photo = Path("side.png");
+  second.depth = Path("side_depth.png");
+  core::WritePng(second.photo, side.picture.color);
+  twin::WriteDepth(second.depth, twin::DepthOf(side));
+  request.more.push_back(second);
+  core::Progress progress;
+  const TwinOutcome outcome = MakeTwin(request, &progress);
+  const TwinRecord read = ReadTwin(outcome.folder);
+  ASSERT_EQ(read.objects.size(), 2u);
+  for (const twin::TableObject& truth : front.scene.objects) {
+    const Eigen::Vector2d at = truth.world_from_object.translation().head<2>();
+    double nearest = 1.0;
+    for (const TwinObject& object : read.objects) {
+      nearest = std::min(nearest, (object.world_from_object.translation().head<2>() - at).norm());
+    }
+    EXPECT_LT(nearest, 0.03);
+  }
+  for (const TwinObject& object : read.objects) {
+    EXPECT_EQ(object.seen_in, (std::vector<int>{0, 1}));
+  }
+  request.camera.height = 0.7;
+  request.force = true;
+  EXPECT_THROW(MakeTwin(request, &progress), core::Error);
+}
+
 std::string BoxJson(const twin::Detection& detection) {
   std::string text = "[";
   for (const double value : {detection.box.min().x(), detection.box.min().y(),

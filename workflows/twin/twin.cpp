@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "twin/depth_agreement.h"
 #include "twin/depth_objects.h"
 #include "twin/object_detector.h"
+#include "twin/table_merging.h"
 #include "twin/table_reconstruction.h"
 #include "workflows/priors/models_folder.h"
 #include "workflows/priors/prior_training.h"
@@ -30,28 +32,29 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kDegreeInRadian = M_PI / 180.0;
-constexpr double kDoubtful = 0.25;    // confidence
+constexpr double kDoubtful = 0.25;          // confidence
 constexpr double kLeastObjectShare = 2e-4;  // of the photo's pixels that show objects
 
 // Finds the objects by the first that is given: the user's boxes, the vision model, the user's
 // detector, the depth, the shipped detector.
-TwinDetections DetectObjects(const TwinRequest& request, const TwinPhoto& photo,
-                             core::Progress* progress, core::Findings* findings) {
+TwinDetections DetectObjects(const TwinRequest& request, const TwinView& view,
+                             const TwinPhoto& photo, core::Progress* progress,
+                             core::Findings* findings) {
   progress->Stage("detecting objects");
   const fs::path weights =
       request.detector.empty() ? DetectorWeights(ModelsFolder()) : request.detector;
   const bool has_weights = fs::exists(weights);
-  const bool stated = !request.objects.empty() || request.model != nullptr;
-  if (!request.objects.empty() && request.model != nullptr) {
+  const bool stated = !view.objects.empty() || request.model != nullptr;
+  if (!view.objects.empty() && request.model != nullptr) {
     throw core::Error("boxes are given, so the vision model has nothing to do",
-                      request.objects.string(), "leave out --objects or --llm");
+                      view.objects.string(), "leave out --objects or --llm");
   }
   if (!request.detector.empty() && !has_weights && !stated) {
     throw core::Error("no such weights of a detector", weights.string());
   }
   TwinDetections detected;
-  if (!request.objects.empty()) {
-    detected = ReadTwinObjects(request.objects, photo.rgb, photo.width, photo.height);
+  if (!view.objects.empty()) {
+    detected = ReadTwinObjects(view.objects, photo.rgb, photo.width, photo.height);
   } else if (request.model != nullptr) {
     detected = AskForTwinObjects(request.model, photo, progress, findings);
   } else if (photo.plane && request.detector.empty()) {
@@ -160,6 +163,85 @@ twin::TableReconstruction Reconstruct(const TwinRequest& request, const TwinPhot
   return table;
 }
 
+// A photo with the table that was rebuilt from it.
+struct RebuiltView {
+  TwinPhoto photo;
+  TwinDetections detected;
+  twin::TableReconstruction table;
+};
+
+RebuiltView RebuildView(const TwinRequest& request, const TwinView& view,
+                        const std::vector<twin::TableAsset>& assets, core::Progress* progress,
+                        core::Findings* findings) {
+  RebuiltView rebuilt;
+  rebuilt.photo = ReadTwinPhoto(request, view, findings);
+  rebuilt.detected = DetectObjects(request, view, rebuilt.photo, progress, findings);
+  if (rebuilt.detected.found.objects.empty()) {
+    throw core::Error("no object on a table is found in the photo", view.photo.string(),
+                      "take it from above so that the whole table top shows, in even light, or "
+                      "give boxes with --objects");
+  }
+  LimitDetections(request.most_objects, &rebuilt.detected, findings);
+  StateCamera(request.camera, rebuilt.photo, &rebuilt.detected.found.camera);
+  rebuilt.table = Reconstruct(request, rebuilt.photo, rebuilt.detected, assets, progress, findings);
+  return rebuilt;
+}
+
+// Rebuilds each photo alone, with findings that name their photo if there are several.
+std::vector<RebuiltView> RebuildViews(const TwinRequest& request,
+                                      const std::vector<twin::TableAsset>& assets,
+                                      core::Progress* progress, core::Findings* findings) {
+  if (!request.more.empty() && request.camera.StatesPose()) {
+    throw core::Error("several photos have cameras at several places", request.photo.string(),
+                      "leave out --elevation, --camera-height and --upright");
+  }
+  std::vector<TwinView> views{request};
+  views.insert(views.end(), request.more.begin(), request.more.end());
+  std::vector<RebuiltView> rebuilt;
+  for (const TwinView& view : views) {
+    core::Findings of_view;
+    rebuilt.push_back(RebuildView(request, view, assets, progress, &of_view));
+    for (core::Finding& finding : of_view) {
+      if (views.size() > 1 && finding.place.empty()) {
+        finding.place = view.photo.filename().string();
+      }
+      findings->push_back(std::move(finding));
+    }
+  }
+  return rebuilt;
+}
+
+// Writes the assets of all objects, of several photos merged, and their entries in the record.
+void WriteObjects(const TwinRequest& request, const std::vector<twin::TableAsset>& own,
+                  std::vector<RebuiltView>* views, const fs::path& assets, core::Progress* progress,
+                  TwinOutcome* outcome) {
+  std::vector<TwinPlacements> placements(views->size());
+  if (views->size() > 1) {
+    std::vector<twin::TableReconstruction> tables;
+    for (const RebuiltView& view : *views) tables.push_back(view.table);
+    const twin::MergedTables merged = twin::MergeTables(tables);
+    for (size_t v = 0; v < views->size(); ++v) {
+      placements[v] = TakeMerged(merged, static_cast<int>(v), &(*views)[v].table);
+    }
+    outcome->findings.insert(outcome->findings.end(), merged.findings.begin(),
+                             merged.findings.end());
+  }
+  size_t count = 0;
+  for (const RebuiltView& view : *views) count += view.table.objects.size();
+  progress->Stage("assets", static_cast<std::int64_t>(count));
+  std::map<std::string, int> names;
+  for (size_t v = 0; v < views->size(); ++v) {
+    const RebuiltView& view = (*views)[v];
+    const TwinAssetSources sources{view.table,  view.photo.rgb, view.detected.found,
+                                   own,         placements[v],  request.free_form ? kDoubtful : 0.0,
+                                   request.seed};
+    for (TwinObject& object :
+         WriteTwinAssets(sources, assets, &names, progress, &outcome->findings)) {
+      outcome->record.objects.push_back(std::move(object));
+    }
+  }
+}
+
 void WriteTwinFiles(const TwinOutcome& outcome, const core::Image& photo, const fs::path& folder) {
   const TwinPictures pictures = RenderTwin(outcome.record, folder / "assets", photo);
   core::WritePng(folder / "photo.png", photo);
@@ -196,34 +278,23 @@ TwinOutcome MakeTwin(const TwinRequest& request, core::Progress* progress) {
   const auto start = std::chrono::steady_clock::now();
   core::StagedFolder staged(request.output, request.force);
   TwinOutcome outcome;
-  const TwinPhoto photo = ReadTwinPhoto(request, &outcome.findings);
   std::vector<twin::TableAsset> own;
   if (!request.assets.empty()) own = twin::ReadTableAssets(request.assets, &outcome.findings);
-  TwinDetections detected = DetectObjects(request, photo, progress, &outcome.findings);
-  if (detected.found.objects.empty()) {
-    throw core::Error("no object on a table is found in the photo", request.photo.string(),
-                      "take it from above so that the whole table top shows, in even light, or "
-                      "give boxes with --objects");
-  }
-  LimitDetections(request.most_objects, &detected, &outcome.findings);
-  StateCamera(request.camera, photo, &detected.found.camera);
-  const twin::TableReconstruction table =
-      Reconstruct(request, photo, detected, own, progress, &outcome.findings);
-  progress->Stage("assets", static_cast<std::int64_t>(table.objects.size()));
-  outcome.record.photo = request.photo.filename().string();
-  outcome.record.camera = table.camera.At(photo.rgb.width, photo.rgb.height);
-  outcome.record.log_scale_error = table.log_scale_error;
+  std::vector<RebuiltView> views = RebuildViews(request, own, progress, &outcome.findings);
   const fs::path assets = staged.staging() / "assets";
-  const TwinAssetSources sources{
-      table, photo.rgb, detected.found, own, request.free_form ? kDoubtful : 0.0, request.seed};
-  outcome.record.objects = WriteTwinAssets(sources, assets, progress, &outcome.findings);
+  WriteObjects(request, own, &views, assets, progress, &outcome);
+  const core::Image& photo = views.front().photo.rgb;
+  const twin::TableReconstruction& table = views.front().table;
+  outcome.record.photo = request.photo.filename().string();
+  outcome.record.camera = table.camera.At(photo.width, photo.height);
+  outcome.record.log_scale_error = table.log_scale_error;
   if (outcome.record.objects.empty()) {
     throw core::Error("no asset could be made of the photo's objects", request.photo.string());
   }
   progress->Stage("physics");
   SettleTwin(assets, &outcome.record, &outcome.findings);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  WriteTwinFiles(outcome, photo.rgb, staged.staging());
+  WriteTwinFiles(outcome, photo, staged.staging());
   progress->Finish();
   staged.Commit();
   outcome.folder = request.output;

@@ -1,5 +1,6 @@
 #include "workflows/twin/twin_objects.h"
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,14 +34,14 @@ std::string CategoryOf(const library_fit::FitKind& kind) {
 }
 
 // Returns unique names of asset folders: "mug_1", "mug_2".
-std::vector<std::string> NamesOf(const TwinAssetSources& sources) {
-  std::map<std::string, int> count;
+std::vector<std::string> NamesOf(const TwinAssetSources& sources,
+                                 std::map<std::string, int>* count) {
   std::vector<std::string> names;
   for (const twin::ReconstructedObject& object : sources.table.objects) {
     const std::string& base = object.retrieved >= 0
                                   ? sources.assets[static_cast<size_t>(object.retrieved)].name
                                   : KindOf(object).name;
-    names.push_back(base + "_" + std::to_string(++count[base]));
+    names.push_back(base + "_" + std::to_string(++(*count)[base]));
   }
   return names;
 }
@@ -132,13 +133,18 @@ TwinObject WriteTwinAsset(const TwinAssetSources& sources, size_t index, const s
       sources.detections.objects[static_cast<size_t>(object.detection)];
   TwinObject entry = EntryOf(object, detection);
   entry.name = name;
+  const Eigen::Isometry3d view_from_instance = entry.world_from_object;
+  if (!sources.placements.poses.empty()) {
+    entry.world_from_object = sources.placements.poses[index].WorldFromObject();
+    entry.seen_in = sources.placements.seen_in[index];
+  }
   if (object.retrieved >= 0) {
     CopyAsset(sources.assets[static_cast<size_t>(object.retrieved)], folder, &entry);
     return entry;
   }
   const core::Camera camera = sources.table.camera.At(sources.photo.width, sources.photo.height);
   library_fit::SeenInstance seen{object.fit.instance, camera};
-  seen.camera.world_from_camera = entry.world_from_object.inverse() * camera.world_from_camera;
+  seen.camera.world_from_camera = view_from_instance.inverse() * camera.world_from_camera;
   WriteFittedAsset(seen, library_fit::FitPhotoOf(sources.photo, detection.alpha),
                    sources.seed + static_cast<std::uint64_t>(index), folder, &entry, findings);
   return entry;
@@ -165,6 +171,12 @@ void LiftDoubtful(const TwinAssetSources& sources, const fs::path& folder,
       LiftTwinObject(sources.photo,
                      sources.detections.objects[static_cast<size_t>(object.detection)], camera,
                      object.fit.pose, sources.seed, folder / entry.name, &entry, progress);
+      if (!sources.placements.poses.empty()) {
+        // Several photos place the object elsewhere than its own does.
+        entry.world_from_object = sources.placements.poses[i].WorldFromObject() *
+                                  object.fit.pose.WorldFromObject().inverse() *
+                                  entry.world_from_object;
+      }
     } catch (const core::Error& error) {
       findings->push_back(AssetFinding(error, "twin-free-form-failed", entry.name));
     }
@@ -173,9 +185,37 @@ void LiftDoubtful(const TwinAssetSources& sources, const fs::path& folder,
 
 }  // namespace
 
+TwinPlacements TakeMerged(const twin::MergedTables& merged, int view,
+                          twin::TableReconstruction* table) {
+  const double log_factor =
+      merged.log_scale + merged.first_from_view[static_cast<size_t>(view)].log_scale;
+  const double factor = std::exp(log_factor);
+  TwinPlacements placements;
+  std::vector<twin::ReconstructedObject> taken;
+  for (const twin::MergedObject& object : merged.objects) {
+    if (object.view != view) continue;
+    twin::ReconstructedObject copy = table->objects[static_cast<size_t>(object.object)];
+    copy.fit.pose.x *= factor;
+    copy.fit.pose.y *= factor;
+    if (copy.retrieved < 0) copy.fit.instance.size *= object.size_factor;
+    copy.confidence = object.confidence;
+    copy.position_error = object.position_error;
+    copy.yaw_error = object.yaw_error;
+    copy.size_error = object.size_error;
+    taken.push_back(std::move(copy));
+    placements.poses.push_back(object.pose);
+    placements.seen_in.push_back(object.seen_in);
+  }
+  table->objects = std::move(taken);
+  table->camera.height *= factor;
+  table->log_scale_error = merged.log_scale_error;
+  return placements;
+}
+
 std::vector<TwinObject> WriteTwinAssets(const TwinAssetSources& sources, const fs::path& folder,
-                                        core::Progress* progress, core::Findings* findings) {
-  const std::vector<std::string> names = NamesOf(sources);
+                                        std::map<std::string, int>* count, core::Progress* progress,
+                                        core::Findings* findings) {
+  const std::vector<std::string> names = NamesOf(sources, count);
   std::vector<std::optional<TwinObject>> made(names.size());
   std::vector<core::Findings> found(names.size());
   fs::create_directories(folder);

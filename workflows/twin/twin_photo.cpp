@@ -13,6 +13,7 @@
 #include "twin/photo_check.h"
 
 namespace simwright::workflows {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr double kFlagDegree = M_PI / 180.0;
@@ -45,13 +46,14 @@ void ReadLens(const TwinRequest& request, const std::string& bytes, TwinPhoto* p
   }
 }
 
-void ReadDepth(const TwinRequest& request, TwinPhoto* photo, core::Findings* findings) {
+void ReadDepth(const TwinRequest& request, const fs::path& depth, TwinPhoto* photo,
+               core::Findings* findings) {
   if (request.camera.elevation > 0.0 || request.camera.height > 0.0 || request.camera.upright) {
-    throw core::Error("the depth tells the camera's elevation, roll and height",
-                      request.depth.string(), "leave out what states them again");
+    throw core::Error("the depth tells the camera's elevation, roll and height", depth.string(),
+                      "leave out what states them again");
   }
-  photo->depth = twin::DepthOfPhoto(core::ReadDepthImage(request.depth, request.depth_unit),
-                                    photo->rgb.width, photo->rgb.height, request.depth.string());
+  photo->depth = twin::DepthOfPhoto(core::ReadDepthImage(depth, request.depth_unit),
+                                    photo->rgb.width, photo->rgb.height, depth.string());
   if (photo->focal <= 0.0) {
     photo->focal = kUsualFocal;
     findings->push_back({"twin-fov-guessed", core::Severity::kWarning, "",
@@ -62,7 +64,7 @@ void ReadDepth(const TwinRequest& request, TwinPhoto* photo, core::Findings* fin
   twin::TableCamera lens;
   lens.focal = photo->focal;
   lens.principal = photo->principal;
-  photo->plane = twin::FitTablePlane(photo->depth, lens, request.seed, request.depth.string());
+  photo->plane = twin::FitTablePlane(photo->depth, lens, request.seed, depth.string());
   const double degrees = photo->plane->camera.elevation / kFlagDegree;
   if (degrees > kSteepDegrees) {
     findings->push_back({"twin-steep", core::Severity::kWarning, "",
@@ -74,10 +76,11 @@ void ReadDepth(const TwinRequest& request, TwinPhoto* photo, core::Findings* fin
 
 }  // namespace
 
-TwinPhoto ReadTwinPhoto(const TwinRequest& request, core::Findings* findings) {
+TwinPhoto ReadTwinPhoto(const TwinRequest& request, const TwinView& view,
+                        core::Findings* findings) {
   TwinPhoto photo;
-  const std::string bytes = core::ReadFile(request.photo, kMostPhotoBytes);
-  const core::Image whole = core::DecodeImage(bytes, request.photo.string());
+  const std::string bytes = core::ReadFile(view.photo, kMostPhotoBytes);
+  const core::Image whole = core::DecodeImage(bytes, view.photo.string());
   photo.width = whole.width;
   photo.height = whole.height;
   const double scale =
@@ -88,12 +91,12 @@ TwinPhoto ReadTwinPhoto(const TwinRequest& request, core::Findings* findings) {
                              static_cast<int>(std::lround(scale * whole.height)));
   }
   if (photo.rgb.width < 64 || photo.rgb.height < 64) {
-    throw core::Error("the photo has less than 64 pixels a side", request.photo.string());
+    throw core::Error("the photo has less than 64 pixels a side", view.photo.string());
   }
-  const core::Findings light = twin::CheckTablePhoto(photo.rgb, request.photo.string());
+  const core::Findings light = twin::CheckTablePhoto(photo.rgb, view.photo.string());
   findings->insert(findings->end(), light.begin(), light.end());
   ReadLens(request, bytes, &photo, findings);
-  if (!request.depth.empty()) ReadDepth(request, &photo, findings);
+  if (!view.depth.empty()) ReadDepth(request, view.depth, &photo, findings);
   return photo;
 }
 

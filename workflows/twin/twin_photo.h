@@ -26,6 +26,6 @@ struct TwinPhoto {
 // Reads the photo, its calibration and its depth, and fits the table's plane to the latter. Throws
 // core::Error for files that are unreadable or do not belong together, a photo in which nothing can
 // be seen, and a depth without a table.
-TwinPhoto ReadTwinPhoto(const TwinRequest& request, core::Findings* findings);
+TwinPhoto ReadTwinPhoto(const TwinRequest& request, const TwinView& view, core::Findings* findings);
 
 }  // namespace simwright::workflows

@@ -53,6 +53,7 @@ core::OrderedJson ObjectJson(const TwinObject& object) {
   json["settled"] = object.settled;
   json["box"] = NumbersOf(
       {object.box.min().x(), object.box.min().y(), object.box.max().x(), object.box.max().y()});
+  if (!object.seen_in.empty()) json["seen_in"] = object.seen_in;
   return json;
 }
 
@@ -93,6 +94,7 @@ TwinObject ReadObject(const core::JsonField& field) {
   object.settled = field["settled"].NumberWithin(0.0);
   const Eigen::Vector4d box = field["box"].Vector<4>();
   object.box = {Eigen::Vector2d(box[0], box[1]), Eigen::Vector2d(box[2], box[3])};
+  if (field.Has("seen_in")) object.seen_in = field["seen_in"].Ints();
   return object;
 }
 

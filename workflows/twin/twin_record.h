@@ -32,8 +32,10 @@ struct TwinObject {
   double outline_iou = 0.0;                                             // with the photo
   // One standard deviation: m in the plane, rad, and of the logarithm of the size.
   double position_error = 0.0, yaw_error = 0.0, size_error = 0.0;
-  double settled = 0.0;     // m that physics moved it
-  Eigen::AlignedBox2d box;  // pixels of the photo
+  double settled = 0.0;      // m that physics moved it
+  Eigen::AlignedBox2d box;   // pixels of the photo
+  std::vector<int> seen_in;  // the photos that show it, from 0, if there are several; its box and
+                             // its paint are of one of them
 };
 
 // The scene of a photo: metres, z up, the table is z = 0, the camera looks towards +y.
