@@ -27,9 +27,9 @@ workflows::TwinRequest RequestOf(const TwinFlags& flags) {
   const size_t count = flags.photos.size();
   const auto check = [count](const std::vector<std::filesystem::path>& files, const char* flag) {
     if (files.empty() || files.size() == count) return;
-    throw core::Error(
-        "gives " + std::to_string(files.size()) + " files for " + std::to_string(count) + " photos",
-        flag, "give it once for each photo, in their order");
+    throw core::Error("there are " + std::to_string(count) + " photos, and " +
+                          std::to_string(files.size()) + " of these files",
+                      flag, "give one for each photo, in their order");
   };
   check(flags.objects, "--objects");
   check(flags.depths, "--depth");

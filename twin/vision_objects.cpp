@@ -25,7 +25,7 @@ constexpr double kRepeated = 0.8;         // IoU of two boxes of one object
 constexpr int kPhotoQuality = 90;
 constexpr int kAnswerTokens = 4000;
 
-// What an object of an answer lacks; the findings count them.
+// The faults for which an object of an answer is left out.
 enum class BoxFault { kNone, kNumbers, kOutside, kSmall, kWhole, kTable, kRepeated };
 
 const char* FaultSentence(BoxFault fault) {

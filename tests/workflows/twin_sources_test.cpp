@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -11,13 +12,14 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/image.h"
+#include "library_fit/fitted_object.h"
 #include "llm/make_chat_model.h"
 #include "physics_params/category_resolution.h"
 #include "program.h"
 #include "tests/llm/chat_server.h"  // last: see there
 #include "tests/twin/depth_pictures.h"
 #include "workflows/twin/twin.h"
-#include "workflows/twin/twin_free_form.h"
+#include "workflows/twin/twin_objects.h"
 
 namespace simwright::workflows {
 namespace {
@@ -234,6 +236,13 @@ TEST_F(TwinSources, TheProgramTakesThem) {
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(outcome.text.rfind("error: ", 0), 0u) << outcome.text;
   EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+  const std::string photo = Path("photo.png").string();
+  const Outcome fewer =
+      RunProgram("twin " + photo + " " + photo + " --depth " + Path("depth.png").string() +
+                 " --quiet -o " + Path("twin").string());
+  EXPECT_EQ(fewer.code, 1);
+  EXPECT_EQ(fewer.text.rfind("error: --depth: there are 2 photos, and 1 of these files", 0), 0u)
+      << fewer.text;
   const Outcome replay = RunProgram("twin " + Path("photo.png").string() + " --replay " +
                                     Path("none.jsonl").string() + " -o " + Path("twin").string());
   EXPECT_EQ(replay.code, 1);
@@ -333,24 +342,50 @@ TEST_F(TwinSources, AnOpenLidIsRecorded) {
   EXPECT_TRUE(Has(outcome.findings, "twin-joint-closed"));
 }
 
-// A doubtful object as the photo shows it: of the fitted height, where the fit stood.
-TEST_F(TwinSources, AFreeFormTakesThePlaceOfAFit) {
-  const twin::RenderedTable table = AppleAndBox();
-  TwinObject entry;
-  entry.name = "box_1";
-  entry.category = "cereal box";
-  entry.articulated = false;
-  entry.size = core::Bounds(table.scene.objects[1].visual.mesh).sizes();
-  fs::create_directories(Path("box_1"));
+// A doubtful object as the photo shows it: of the fitted height, where the photos together place
+// it.
+TEST_F(TwinSources, AFreeFormTakesThePlaceOfADoubtfulFit) {
+  const twin::RenderedTable rendered = AppleAndBox();
+  const twin::TableObject& box = rendered.scene.objects[1];
+  twin::TableReconstruction table;
+  table.camera = kEye;
+  twin::ReconstructedObject object;
+  object.fit.instance = box.instance;
+  object.fit.pose = {0.1, 1.0, 0.5};
+  object.confidence = 0.1;
+  table.objects.push_back(object);
+  twin::Detections detections;
+  detections.objects.push_back(rendered.detections[1]);
+  // Moved by (0.3, -0.2) and turned by 90 degrees against this photo.
+  TwinPlacements placements;
+  placements.poses.push_back({0.4, 0.8, 0.5 + 0.5 * M_PI});
+  placements.seen_in.push_back({0, 1});
+  std::map<std::string, int> names;
   core::Progress progress;
-  LiftTwinObject(table.picture.color, table.detections[1], table.scene.camera, {0.1, 1.0, 0.5}, 1,
-                 Path("box_1"), &entry, &progress);
-  EXPECT_EQ(entry.source, TwinSource::kLifted);
-  const assets::Asset asset = assets::ReadAsset(Path("box_1"));
-  const Eigen::Vector3d size = core::Bounds(asset.visual.mesh).sizes();
-  EXPECT_NEAR(size.z() / core::Bounds(table.scene.objects[1].visual.mesh).sizes().z(), 1.0, 0.05);
-  EXPECT_NEAR(entry.world_from_object.translation().x(), 0.1, 1e-9);
-  EXPECT_NEAR(entry.world_from_object.linear()(2, 2), 1.0, 0.05);
+  core::Findings findings;
+  const std::vector<TwinObject> objects =
+      WriteTwinAssets({table, rendered.picture.color, detections, {}, placements, 0.25, 1},
+                      Path("assets"), &names, &progress, &findings);
+  ASSERT_EQ(objects.size(), 1u);
+  EXPECT_FALSE(Has(findings, "twin-free-form-failed"));
+  EXPECT_EQ(objects[0].source, TwinSource::kLifted);
+  EXPECT_EQ(objects[0].name, "cereal_box_1");
+  EXPECT_NEAR(objects[0].world_from_object.translation().x(), 0.4, 1e-9);
+  EXPECT_NEAR(objects[0].world_from_object.translation().y(), 0.8, 1e-9);
+  const assets::Asset asset = assets::ReadAsset(Path("assets/cereal_box_1"));
+  EXPECT_NEAR(
+      core::Bounds(asset.visual.mesh).sizes().z() / core::Bounds(box.visual.mesh).sizes().z(), 1.0,
+      0.05);
+  // Seen from the camera of this photo, turned and moved as the object, its outline is the box's.
+  Eigen::Isometry3d move =
+      placements.poses[0].WorldFromObject() * object.fit.pose.WorldFromObject().inverse();
+  core::Camera camera = rendered.scene.camera;
+  camera.world_from_camera =
+      objects[0].world_from_object.inverse() * move * camera.world_from_camera;
+  const library_fit::PhotoAgreement agreement = library_fit::AgreementWithPhoto(
+      asset.visual, camera,
+      library_fit::FitPhotoOf(rendered.picture.color, rendered.detections[1].alpha));
+  EXPECT_GT(agreement.iou, 0.7);
 }
 
 }  // namespace
