@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/image_channels.h"
 
 namespace simwright::twin {
 namespace fs = std::filesystem;
@@ -19,16 +20,7 @@ constexpr size_t kMostTriangles = 60000;
 core::Image ReadRgb(const fs::path& path) {
   core::ImageReadOptions options;
   options.max_side = kPhotoSide;
-  const core::Image read = core::ReadImage(path, options);
-  if (read.channels == 3) return read;
-  core::Image rgb(read.width, read.height, 3);
-  for (size_t i = 0; i < rgb.pixels.size() / 3; ++i) {
-    for (size_t c = 0; c < 3; ++c) {
-      rgb.pixels[3 * i + c] =
-          read.pixels[i * static_cast<size_t>(read.channels) + (read.channels == 4 ? c : 0)];
-    }
-  }
-  return rgb;
+  return core::InRgb(core::ReadImage(path, options));
 }
 
 bool IsPicture(const fs::path& path) {

@@ -44,8 +44,8 @@ core::Camera TableCamera::At(int width, int height_pixels) const {
       turn * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   camera.world_from_camera.translation() = height * Eigen::Vector3d::UnitZ();
   camera.fx = camera.fy = focal * width;
-  camera.cx = 0.5 * width;
-  camera.cy = 0.5 * height_pixels;
+  camera.cx = principal.x() * width;
+  camera.cy = principal.y() * height_pixels;
   return camera;
 }
 
@@ -60,6 +60,7 @@ TableCamera TableCameraOf(const core::Camera& camera) {
   numbers.roll = std::atan2(-turn(2, 0), -turn(2, 1));
   numbers.focal = camera.fx / camera.width;
   numbers.height = camera.position().z();
+  numbers.principal = {camera.cx / camera.width, camera.cy / camera.height};
   return numbers;
 }
 

@@ -9,12 +9,13 @@ namespace simwright::twin {
 // A camera above a table in the numbers that a photo determines. The world's origin is the point of
 // the table's plane, z = 0, below the camera; z is up, and the camera looks towards +y.
 struct TableCamera {
-  double elevation = 0.6;  // rad, of the optical axis below the horizon
-  double roll = 0.0;       // rad, about the optical axis
-  double focal = 1.0;      // over the picture's width
-  double height = 0.5;     // m, above the table
+  double elevation = 0.6;               // rad, of the optical axis below the horizon
+  double roll = 0.0;                    // rad, about the optical axis
+  double focal = 1.0;                   // over the picture's width
+  double height = 0.5;                  // m, above the table
+  Eigen::Vector2d principal{0.5, 0.5};  // point, in widths and heights of the picture
 
-  // Returns the camera of a picture with its principal point in the middle and square pixels.
+  // Returns the camera of a picture with square pixels.
   core::Camera At(int width, int height_pixels) const;
   // Returns false, with the reason, for numbers that no photo of a table has: an elevation outside
   // 3 to 88 degrees, a roll beyond 45 degrees, a focal length outside 0.3 to 10 or a height outside

@@ -34,6 +34,9 @@ struct ReconstructedObject {
   double yaw_error = 0.0;       // rad
   double size_error = 0.0;      // of the logarithm
   bool hidden = false;          // partly behind another object or outside of the photo
+  // The asset that takes the place of the fitted instance (twin/asset_retrieval.h), or -1; `fit`
+  // then has its pose, size and agreement.
+  int retrieved = -1;
 };
 
 struct TableReconstruction {

@@ -24,6 +24,26 @@ struct PlacedKind {
   double x, y, yaw;
 };
 
+// Renders the table's scene before a camera, and detects its objects.
+inline void Picture(const TableCamera& camera, RenderedTable* table) {
+  table->scene.camera = camera.At(320, 240);
+  table->scene.light = render::SphericalHarmonicsLight::Studio({0.4f, -0.5f, 0.75f});
+  table->picture = RenderTable(table->scene, {}, {2, 4, 2}, 1);
+  for (size_t k = 0; k < table->scene.objects.size(); ++k) {
+    Detection detection;
+    detection.alpha = core::Image(320, 240, 1);
+    detection.confidence = 1.0;
+    for (size_t i = 0; i < table->picture.label.size(); ++i) {
+      if (table->picture.label[i] != static_cast<std::int16_t>(k)) continue;
+      detection.alpha.pixels[i] = 255;
+      const Eigen::Vector2d at(static_cast<double>(i % 320), static_cast<double>(i / 320));
+      detection.box.extend(at);
+      detection.box.extend(at + Eigen::Vector2d::Ones());
+    }
+    table->detections.push_back(std::move(detection));
+  }
+}
+
 inline RenderedTable RenderKinds(std::initializer_list<PlacedKind> placed,
                                  const TableCamera& camera) {
   RenderedTable table;
@@ -37,22 +57,7 @@ inline RenderedTable RenderKinds(std::initializer_list<PlacedKind> placed,
     table.scene.objects.push_back(std::move(object));
   }
   table.scene.table.endless = true;
-  table.scene.camera = camera.At(320, 240);
-  table.scene.light = render::SphericalHarmonicsLight::Studio({0.4f, -0.5f, 0.75f});
-  table.picture = RenderTable(table.scene, {}, 2, 1);
-  for (size_t k = 0; k < table.scene.objects.size(); ++k) {
-    Detection detection;
-    detection.alpha = core::Image(320, 240, 1);
-    detection.confidence = 1.0;
-    for (size_t i = 0; i < table.picture.label.size(); ++i) {
-      if (table.picture.label[i] != static_cast<std::int16_t>(k)) continue;
-      detection.alpha.pixels[i] = 255;
-      const Eigen::Vector2d at(static_cast<double>(i % 320), static_cast<double>(i / 320));
-      detection.box.extend(at);
-      detection.box.extend(at + Eigen::Vector2d::Ones());
-    }
-    table.detections.push_back(std::move(detection));
-  }
+  Picture(camera, &table);
   return table;
 }
 

@@ -25,7 +25,9 @@ TwinRecord SmallRecord() {
   record.penetration = 1e-5;
   TwinObject object;
   object.name = "mug_1";
+  object.source = TwinSource::kLifted;
   object.kind = "mug";
+  object.joints = {{"lid", 1.25}};
   object.category = "mug";
   object.world_from_object.linear() =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -49,6 +51,8 @@ TEST(TwinRecord, IsReadAsWritten) {
   const TwinRecord read = ReadTwin(folder.path());
   ASSERT_EQ(read.objects.size(), 1u);
   EXPECT_EQ(read.objects[0].size, record.objects[0].size);
+  EXPECT_EQ(read.objects[0].source, TwinSource::kLifted);
+  EXPECT_EQ(read.objects[0].joints, record.objects[0].joints);
   EXPECT_EQ(read.objects[0].position_error, record.objects[0].position_error);
   EXPECT_EQ(read.objects[0].box.max(), record.objects[0].box.max());
   EXPECT_EQ(read.log_scale_error, record.log_scale_error);
@@ -80,6 +84,8 @@ TEST(TwinRecord, NamesWhatIsDamaged) {
   EXPECT_NE(refusal("\"twin_format\": 1", "\"twin_format\": 2").find("twin_format"),
             std::string::npos);
   EXPECT_NE(refusal("0.12", "1e400").size(), 0u);
+  EXPECT_NE(refusal("\"lifted\"", "\"stolen\"").find("source"), std::string::npos);
+  EXPECT_NE(refusal("1.25", "\"open\"").find("joints"), std::string::npos);
 }
 
 TEST(ReadTwinObjects, TakesBoxesCategoriesAndMasks) {
@@ -141,6 +147,22 @@ TEST(LimitDetections, KeepsTheLargestWithTheirKinds) {
   EXPECT_EQ(findings[0].code, "twin-many-objects");
   LimitDetections(2, &detections, &findings);
   EXPECT_EQ(findings.size(), 1u);
+}
+
+TEST(LimitDetections, KeepsTwentyFiveOfForty) {
+  TwinDetections detections;
+  for (int k = 0; k < 40; ++k) {
+    twin::Detection detection;
+    detection.box = {Eigen::Vector2d::Zero(), Eigen::Vector2d(10.0 + k, 10.0)};
+    detections.found.objects.push_back(detection);
+  }
+  core::Findings findings;
+  LimitDetections(TwinRequest().most_objects, &detections, &findings);
+  EXPECT_EQ(detections.found.objects.size(), 25u);
+  EXPECT_EQ(detections.found.objects.front().box.max().x(), 25.0);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].code, "twin-many-objects");
+  EXPECT_EQ(findings[0].figure, 40.0);
 }
 
 // The whole way, with a known camera and the objects' masks: a scene that stands, in metres, that

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/image_channels.h"
 
 namespace simwright::texture {
 namespace {
@@ -23,22 +24,6 @@ Canvas PictureAlone(const ImageRequest& request) {
 void CentrePicture(Canvas* canvas) {
   canvas->left = (canvas->width - canvas->picture_width) / 2;
   canvas->top = (canvas->height - canvas->picture_height) / 2;
-}
-
-core::Image InRgb(const core::Image& image) {
-  if (image.channels == 3) return image;
-  core::Image rgb(image.width, image.height, 3);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const std::uint8_t* from = image.At(x, y);
-      const int alpha = image.channels == 4 ? from[3] : 255;
-      for (int c = 0; c < 3; ++c) {
-        const int value = image.channels == 4 ? from[c] : from[0];
-        rgb.At(x, y)[c] = static_cast<std::uint8_t>((value * alpha + 255 * (255 - alpha)) / 255);
-      }
-    }
-  }
-  return rgb;
 }
 
 core::Image CroppedTo(const core::Image& image, int left, int top, int width, int height) {
@@ -153,7 +138,7 @@ core::Image AnsweredPicture(const std::string& bytes, const ImageRequest& reques
   try {
     core::ImageReadOptions limits;
     limits.max_pixels = connection->options().max_picture_pixels;
-    picture = InRgb(core::DecodeImage(bytes, "the picture", limits));
+    picture = core::InRgb(core::DecodeImage(bytes, "the picture", limits));
   } catch (const core::Error& error) {
     const std::string content = DescribeAnswer(bytes);
     const bool binary = content == "of an unknown binary format";

@@ -1,8 +1,10 @@
 #include "workflows/twin/twin.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -10,13 +12,18 @@
 #include "core/files.h"
 #include "core/image.h"
 #include "library_fit/library_prior.h"
+#include "twin/asset_retrieval.h"
+#include "twin/depth_agreement.h"
+#include "twin/depth_objects.h"
 #include "twin/object_detector.h"
+#include "twin/table_merging.h"
 #include "twin/table_reconstruction.h"
 #include "workflows/priors/models_folder.h"
 #include "workflows/priors/prior_training.h"
 #include "workflows/twin/twin_detections.h"
 #include "workflows/twin/twin_objects.h"
 #include "workflows/twin/twin_page.h"
+#include "workflows/twin/twin_photo.h"
 #include "workflows/twin/twin_pictures.h"
 #include "workflows/twin/twin_settling.h"
 
@@ -25,89 +32,60 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kDegreeInRadian = M_PI / 180.0;
-constexpr int kLongerSide = 960;     // pixels of the photo as used
-constexpr double kFilmWidth = 36.0;  // mm, of EXIF's equivalent focal length
-constexpr double kExifError = 0.03;  // of the logarithm of such a focal length
-constexpr std::uint64_t kMostPhotoBytes = 256u << 20;
-constexpr double kLeastShare = 2e-4;  // of the photo's pixels that show objects
+constexpr double kDoubtful = 0.25;          // confidence
+constexpr double kLeastObjectShare = 2e-4;  // of the photo's pixels that show objects
 
-// The photo in RGB, and what its file says.
-struct TwinPhoto {
-  core::Image rgb;
-  int width = 0, height = 0;  // of the file
-  double focal_35mm = 0.0;
-};
-
-core::Image InRgb(const core::Image& image) {
-  if (image.channels == 3) return image;
-  core::Image rgb(image.width, image.height, 3);
-  for (size_t i = 0; i < rgb.pixels.size() / 3; ++i) {
-    for (size_t c = 0; c < 3; ++c) {
-      rgb.pixels[3 * i + c] =
-          image.pixels[i * static_cast<size_t>(image.channels) + (image.channels == 4 ? c : 0)];
-    }
-  }
-  return rgb;
-}
-
-TwinPhoto ReadTwinPhoto(const fs::path& path) {
-  TwinPhoto photo;
-  const std::string bytes = core::ReadFile(path, kMostPhotoBytes);
-  const core::Image whole = core::DecodeImage(bytes, path.string());
-  photo.width = whole.width;
-  photo.height = whole.height;
-  photo.focal_35mm = core::ExifFocalLength35mm(bytes);
-  const double scale =
-      std::min(1.0, static_cast<double>(kLongerSide) / std::max(whole.width, whole.height));
-  photo.rgb = InRgb(whole);
-  if (scale < 1.0) {
-    photo.rgb = core::Resize(photo.rgb, static_cast<int>(std::lround(scale * whole.width)),
-                             static_cast<int>(std::lround(scale * whole.height)));
-  }
-  if (photo.rgb.width < 64 || photo.rgb.height < 64) {
-    throw core::Error("the photo has less than 64 pixels a side", path.string());
-  }
-  return photo;
-}
-
-TwinDetections DetectObjects(const TwinRequest& request, const TwinPhoto& photo,
-                             core::Progress* progress) {
+// Finds the objects by the first that is given: the user's boxes, the vision model, the user's
+// detector, the depth, the shipped detector.
+TwinDetections DetectObjects(const TwinRequest& request, const TwinView& view,
+                             const TwinPhoto& photo, core::Progress* progress,
+                             core::Findings* findings) {
   progress->Stage("detecting objects");
   const fs::path weights =
       request.detector.empty() ? DetectorWeights(ModelsFolder()) : request.detector;
   const bool has_weights = fs::exists(weights);
-  if (!request.detector.empty() && !has_weights && request.objects.empty()) {
+  const bool stated = !view.objects.empty() || request.model != nullptr;
+  if (!view.objects.empty() && request.model != nullptr) {
+    throw core::Error("boxes are given, so the vision model has nothing to do",
+                      view.objects.string(), "leave out --objects or --llm");
+  }
+  if (!request.detector.empty() && !has_weights && !stated) {
     throw core::Error("no such weights of a detector", weights.string());
   }
-  if (!request.objects.empty()) {
-    TwinDetections stated = ReadTwinObjects(request.objects, photo.rgb, photo.width, photo.height);
-    if (has_weights) {
-      stated.found.camera = twin::ObjectDetector(weights).Detect(photo.rgb).camera;
-    }
-    return stated;
-  }
-  if (!has_weights) {
-    throw core::Error("the weights of the table detector are missing", weights.string(),
-                      "simwright prior train --only detector -o models makes them; --objects gives "
-                      "boxes instead");
-  }
   TwinDetections detected;
-  detected.found = twin::ObjectDetector(weights).Detect(photo.rgb);
+  if (!view.objects.empty()) {
+    detected = ReadTwinObjects(view.objects, photo.rgb, photo.width, photo.height);
+  } else if (request.model != nullptr) {
+    detected = AskForTwinObjects(request.model, photo, progress, findings);
+  } else if (photo.plane && request.detector.empty()) {
+    detected.found.objects = twin::ObjectsAbovePlane(photo.depth, *photo.plane);
+  } else if (has_weights) {
+    detected.found = twin::ObjectDetector(weights).Detect(photo.rgb);
+    if (detected.found.object_share < kLeastObjectShare) detected.found.objects.clear();
+    return detected;
+  } else {
+    throw core::Error("the weights of the table detector are missing", weights.string(),
+                      "simwright prior train --only detector -o models makes them; --objects, "
+                      "--llm or --depth find the objects without it");
+  }
+  if (has_weights && !photo.plane) {
+    detected.found.camera = twin::ObjectDetector(weights).Detect(photo.rgb).camera;
+  }
   return detected;
 }
 
-// Replaces guessed numbers by what the user and the file know.
+// Replaces guessed numbers by what the user and the files know.
 void StateCamera(const TwinCameraFlags& flags, const TwinPhoto& photo,
-                 twin::TableCameraGuess* guess, core::Findings* findings) {
+                 twin::TableCameraGuess* guess) {
+  if (photo.plane) {
+    *guess = {photo.plane->camera, 0.0, 0.0, 0.0, 0.0};
+    return;
+  }
   twin::TableCamera& camera = guess->camera;
-  if (flags.fov > 0.0) {
-    camera.focal = 0.5 / std::tan(0.5 * flags.fov * kDegreeInRadian);
-    guess->log_focal_error = 0.0;
-  } else if (photo.focal_35mm > 0.0) {
-    // The equivalent refers to the longer side.
-    const double longer = std::max(photo.width, photo.height);
-    camera.focal = photo.focal_35mm / kFilmWidth * longer / photo.width;
-    guess->log_focal_error = kExifError;
+  camera.principal = photo.principal;
+  if (photo.focal > 0.0) {
+    camera.focal = photo.focal;
+    guess->log_focal_error = photo.log_focal_error;
   }
   if (flags.elevation > 0.0) {
     camera.elevation = flags.elevation * kDegreeInRadian;
@@ -120,19 +98,27 @@ void StateCamera(const TwinCameraFlags& flags, const TwinPhoto& photo,
   if (flags.height > 0.0) {
     camera.height = flags.height;
     guess->log_height_error = 0.0;
-    return;
   }
+}
+
+// Reports a scale that nothing determined.
+void ReportScale(const twin::TableCameraGuess& guess, core::Findings* findings) {
+  const bool from_assets = std::any_of(
+      findings->begin(), findings->end(),
+      [](const core::Finding& finding) { return finding.code == "twin-scale-from-assets"; });
+  if (guess.log_height_error <= 0.0 || from_assets) return;
   findings->push_back({"twin-scale-guessed", core::Severity::kInfo, "",
                        "the camera's height above the table is not known; the scale is that with "
                        "which the objects have usual sizes",
-                       0.0, "--camera-height gives true sizes"});
+                       0.0, "--camera-height or --depth give true sizes"});
 }
 
 core::Findings KindFindings(const twin::TableReconstruction& table) {
-  constexpr double kDoubtful = 0.25;
   core::Findings findings;
+  size_t doubtful = 0;
   for (const twin::ReconstructedObject& object : table.objects) {
     if (object.confidence >= kDoubtful) continue;
+    ++doubtful;
     const std::string& kind =
         library_fit::FitKinds()[static_cast<size_t>(object.fit.instance.kind)].name;
     char sentence[160];
@@ -140,9 +126,120 @@ core::Findings KindFindings(const twin::TableReconstruction& table) {
                   "object %d is doubtful: taken for a %s with confidence %.2f, outline IoU %.2f",
                   object.detection + 1, kind.c_str(), object.confidence, object.fit.agreement.iou);
     findings.push_back({"twin-doubtful", core::Severity::kWarning, "", sentence, object.confidence,
-                        "--objects states its box and category"});
+                        "--objects states its box and category; --free-form reconstructs it"});
+  }
+  if (doubtful == table.objects.size()) {
+    findings.push_back({"twin-no-table", core::Severity::kWarning, "",
+                        "no object agrees well with the photo: it may show no table, or a wall, a "
+                        "mirror or a screen",
+                        static_cast<double>(doubtful), "compare overlay.png with the photo"});
   }
   return findings;
+}
+
+// Rebuilds the detected objects, with the user's assets where they are found again.
+twin::TableReconstruction Reconstruct(const TwinRequest& request, const TwinPhoto& photo,
+                                      const TwinDetections& detected,
+                                      const std::vector<twin::TableAsset>& assets,
+                                      core::Progress* progress, core::Findings* findings) {
+  const library_fit::LibraryPrior prior(LibraryWeights(ModelsFolder()));
+  twin::TableReconstructionOptions options;
+  options.kinds = detected.kinds;
+  options.seed = request.seed;
+  twin::TableReconstruction table =
+      twin::ReconstructTable(photo.rgb, detected.found, prior, options, progress);
+  const auto report = [findings](const core::Findings& more) {
+    findings->insert(findings->end(), more.begin(), more.end());
+  };
+  if (photo.plane) report(twin::CompareWithDepth(table, detected.found, photo.depth));
+  if (!assets.empty()) {
+    progress->Stage("assets of yours", static_cast<std::int64_t>(table.objects.size()));
+    twin::RetrievalOptions retrieval;
+    retrieval.seed = request.seed;
+    twin::RetrieveAssets(photo.rgb, detected.found, assets, retrieval, &table, progress, findings);
+  }
+  report(KindFindings(table));
+  ReportScale(detected.found.camera, findings);
+  return table;
+}
+
+// A photo with the table that was rebuilt from it.
+struct RebuiltView {
+  TwinPhoto photo;
+  TwinDetections detected;
+  twin::TableReconstruction table;
+};
+
+RebuiltView RebuildView(const TwinRequest& request, const TwinView& view,
+                        const std::vector<twin::TableAsset>& assets, core::Progress* progress,
+                        core::Findings* findings) {
+  RebuiltView rebuilt;
+  rebuilt.photo = ReadTwinPhoto(request, view, findings);
+  rebuilt.detected = DetectObjects(request, view, rebuilt.photo, progress, findings);
+  if (rebuilt.detected.found.objects.empty()) {
+    throw core::Error("no object on a table is found in the photo", view.photo.string(),
+                      "take it from above so that the whole table top shows, in even light, or "
+                      "give boxes with --objects");
+  }
+  LimitDetections(request.most_objects, &rebuilt.detected, findings);
+  StateCamera(request.camera, rebuilt.photo, &rebuilt.detected.found.camera);
+  rebuilt.table = Reconstruct(request, rebuilt.photo, rebuilt.detected, assets, progress, findings);
+  return rebuilt;
+}
+
+// Rebuilds each photo alone, with findings that name their photo if there are several.
+std::vector<RebuiltView> RebuildViews(const TwinRequest& request,
+                                      const std::vector<twin::TableAsset>& assets,
+                                      core::Progress* progress, core::Findings* findings) {
+  if (!request.more.empty() && request.camera.StatesPose()) {
+    throw core::Error("several photos have cameras at several places", request.photo.string(),
+                      "leave out --elevation, --camera-height and --upright");
+  }
+  std::vector<TwinView> views{request};
+  views.insert(views.end(), request.more.begin(), request.more.end());
+  std::vector<RebuiltView> rebuilt;
+  for (const TwinView& view : views) {
+    core::Findings of_view;
+    rebuilt.push_back(RebuildView(request, view, assets, progress, &of_view));
+    for (core::Finding& finding : of_view) {
+      if (views.size() > 1 && finding.place.empty()) {
+        finding.place = view.photo.filename().string();
+      }
+      findings->push_back(std::move(finding));
+    }
+  }
+  return rebuilt;
+}
+
+// Writes the assets of all objects, of several photos merged, and their entries in the record.
+void WriteObjects(const TwinRequest& request, const std::vector<twin::TableAsset>& own,
+                  std::vector<RebuiltView>* views, const fs::path& assets, core::Progress* progress,
+                  TwinOutcome* outcome) {
+  std::vector<TwinPlacements> placements(views->size());
+  if (views->size() > 1) {
+    std::vector<twin::TableReconstruction> tables;
+    for (const RebuiltView& view : *views) tables.push_back(view.table);
+    const twin::MergedTables merged = twin::MergeTables(tables);
+    for (size_t v = 0; v < views->size(); ++v) {
+      placements[v] = TakeMerged(merged, static_cast<int>(v), &(*views)[v].table);
+    }
+    outcome->findings.insert(outcome->findings.end(), merged.findings.begin(),
+                             merged.findings.end());
+  }
+  size_t count = 0;
+  for (const RebuiltView& view : *views) count += view.table.objects.size();
+  progress->Stage("assets", static_cast<std::int64_t>(count));
+  std::map<std::string, int> names;
+  for (size_t v = 0; v < views->size(); ++v) {
+    const RebuiltView& view = (*views)[v];
+    const TwinAssetSources sources{view.table,  view.photo.rgb, view.detected.found,
+                                   own,         placements[v],  request.free_form ? kDoubtful : 0.0,
+                                   request.seed};
+    for (TwinObject& object :
+         WriteTwinAssets(sources, assets, &names, progress, &outcome->findings)) {
+      outcome->record.objects.push_back(std::move(object));
+    }
+  }
 }
 
 void WriteTwinFiles(const TwinOutcome& outcome, const core::Image& photo, const fs::path& folder) {
@@ -180,39 +277,24 @@ TwinOutcome MakeTwin(const TwinRequest& request, core::Progress* progress) {
   if (!request.camera.IsValid(&error)) throw core::Error(error, "camera of the photo");
   const auto start = std::chrono::steady_clock::now();
   core::StagedFolder staged(request.output, request.force);
-  const TwinPhoto photo = ReadTwinPhoto(request.photo);
-  TwinDetections detected = DetectObjects(request, photo, progress);
   TwinOutcome outcome;
-  if (detected.found.objects.empty() ||
-      (request.objects.empty() && detected.found.object_share < kLeastShare)) {
-    throw core::Error("no object on a table is found in the photo", request.photo.string(),
-                      "take it from above so that the whole table top shows, in even light, or "
-                      "give boxes with --objects");
-  }
-  LimitDetections(request.most_objects, &detected, &outcome.findings);
-  StateCamera(request.camera, photo, &detected.found.camera, &outcome.findings);
-  const library_fit::LibraryPrior prior(LibraryWeights(ModelsFolder()));
-  twin::TableReconstructionOptions options;
-  options.kinds = detected.kinds;
-  options.seed = request.seed;
-  const twin::TableReconstruction table =
-      twin::ReconstructTable(photo.rgb, detected.found, prior, options, progress);
-  const core::Findings doubtful = KindFindings(table);
-  outcome.findings.insert(outcome.findings.end(), doubtful.begin(), doubtful.end());
-  progress->Stage("assets", static_cast<std::int64_t>(table.objects.size()));
-  outcome.record.photo = request.photo.filename().string();
-  outcome.record.camera = table.camera.At(photo.rgb.width, photo.rgb.height);
-  outcome.record.log_scale_error = table.log_scale_error;
+  std::vector<twin::TableAsset> own;
+  if (!request.assets.empty()) own = twin::ReadTableAssets(request.assets, &outcome.findings);
+  std::vector<RebuiltView> views = RebuildViews(request, own, progress, &outcome.findings);
   const fs::path assets = staged.staging() / "assets";
-  outcome.record.objects = WriteTwinAssets(table, photo.rgb, detected.found, request.seed, assets,
-                                           progress, &outcome.findings);
+  WriteObjects(request, own, &views, assets, progress, &outcome);
+  const core::Image& photo = views.front().photo.rgb;
+  const twin::TableReconstruction& table = views.front().table;
+  outcome.record.photo = request.photo.filename().string();
+  outcome.record.camera = table.camera.At(photo.width, photo.height);
+  outcome.record.log_scale_error = table.log_scale_error;
   if (outcome.record.objects.empty()) {
     throw core::Error("no asset could be made of the photo's objects", request.photo.string());
   }
   progress->Stage("physics");
   SettleTwin(assets, &outcome.record, &outcome.findings);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  WriteTwinFiles(outcome, photo.rgb, staged.staging());
+  WriteTwinFiles(outcome, photo, staged.staging());
   progress->Finish();
   staged.Commit();
   outcome.folder = request.output;

@@ -10,27 +10,17 @@
 #include "core/json.h"
 #include "library_fit/fit_kinds.h"
 #include "physics_params/category_resolution.h"
+#include "twin/depth_objects.h"
+#include "twin/detection_mask.h"
+#include "twin/vision_objects.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kMostObjectsBytes = 1u << 20;
-constexpr int kMaskInside = 128;
 constexpr size_t kMostStated = 100;
-constexpr double kLeastBoxPixels = 4.0;
-
-Eigen::AlignedBox2d BoxOfMask(const core::Image& mask) {
-  Eigen::AlignedBox2d box;
-  for (int y = 0; y < mask.height; ++y) {
-    for (int x = 0; x < mask.width; ++x) {
-      if (*mask.At(x, y) < kMaskInside) continue;
-      box.extend(Eigen::Vector2d(x, y));
-      box.extend(Eigen::Vector2d(x + 1, y + 1));
-    }
-  }
-  return box;
-}
+constexpr double kSameBox = 0.5;  // IoU of a box and that of a piece above the plane
 
 // Reads a mask beside the file, as grey, in the photo's size.
 core::Image ReadMask(const core::JsonField& field, const fs::path& folder,
@@ -86,17 +76,12 @@ TwinDetections ReadTwinObjects(const fs::path& file, const core::Image& photo, i
         box[0] >= width || box[1] >= height) {
       object["box"].Fail("must be left, top, right, bottom in pixels of the photo");
     }
-    twin::Detection detection;
-    detection.alpha = object.Has("mask") ? ReadMask(object["mask"], file.parent_path(), photo)
-                                         : asset_lift::BoxMatte(
-                                               photo, {Eigen::Vector2d(sx * box[0], sy * box[1]),
-                                                       Eigen::Vector2d(sx * box[2], sy * box[3])});
-    detection.box = BoxOfMask(detection.alpha);
+    twin::Detection detection = twin::DetectionOfMask(
+        object.Has("mask")
+            ? ReadMask(object["mask"], file.parent_path(), photo)
+            : asset_lift::BoxMatte(photo, {Eigen::Vector2d(sx * box[0], sy * box[1]),
+                                           Eigen::Vector2d(sx * box[2], sy * box[3])}));
     if (detection.box.isEmpty()) object.Fail("shows no pixel of an object");
-    detection.confidence = 1.0;
-    detection.cut = detection.box.min().x() < 2.0 || detection.box.min().y() < 2.0 ||
-                    detection.box.max().x() > photo.width - 2.0 ||
-                    detection.box.max().y() > photo.height - 2.0;
     std::vector<int> kinds;
     if (object.Has("category")) {
       const std::string named = object["category"].Name();
@@ -108,6 +93,32 @@ TwinDetections ReadTwinObjects(const fs::path& file, const core::Image& photo, i
     }
     detections.found.objects.push_back(std::move(detection));
     detections.kinds.push_back(std::move(kinds));
+  }
+  return detections;
+}
+
+TwinDetections AskForTwinObjects(llm::ChatModel* model, const TwinPhoto& photo,
+                                 core::Progress* progress, core::Findings* findings) {
+  const twin::VisionObjects answer = twin::AskForObjects(model, photo.rgb, progress);
+  findings->insert(findings->end(), answer.findings.begin(), answer.findings.end());
+  std::vector<twin::Detection> pieces;
+  if (photo.plane) pieces = twin::ObjectsAbovePlane(photo.depth, *photo.plane);
+  TwinDetections detections;
+  for (const twin::NamedBox& named : answer.boxes) {
+    const auto piece = std::find_if(pieces.begin(), pieces.end(), [&](const auto& candidate) {
+      const Eigen::AlignedBox2d both = candidate.box.intersection(named.box);
+      if (both.isEmpty()) return false;
+      const double joint = candidate.box.volume() + named.box.volume() - both.volume();
+      return both.volume() > kSameBox * joint;
+    });
+    if (piece != pieces.end()) {
+      detections.found.objects.push_back(std::move(*piece));
+      pieces.erase(piece);
+    } else {
+      detections.found.objects.push_back(
+          twin::DetectionOfMask(asset_lift::BoxMatte(photo.rgb, named.box)));
+    }
+    detections.kinds.push_back(named.kinds);
   }
   return detections;
 }

@@ -6,7 +6,10 @@
 
 #include "core/finding.h"
 #include "core/image.h"
+#include "core/progress.h"
+#include "llm/chat_model.h"
 #include "twin/object_detector.h"
+#include "workflows/twin/twin_photo.h"
 
 namespace simwright::workflows {
 
@@ -22,6 +25,12 @@ struct TwinDetections {
 // file, a box outside of the photo, or a category without a kind of the library.
 TwinDetections ReadTwinObjects(const std::filesystem::path& file, const core::Image& photo,
                                int width, int height);
+
+// Asks a vision model for boxes and names (twin/vision_objects.h), and segments the boxes: by the
+// depth, if there is any, where a piece above the plane fills the box about, else by GrabCut. The
+// camera is a general guess. Adds the findings of the answer.
+TwinDetections AskForTwinObjects(llm::ChatModel* model, const TwinPhoto& photo,
+                                 core::Progress* progress, core::Findings* findings);
 
 // Keeps the `most` largest detections, with a finding about the others, and reports those that the
 // photo's border cuts off.

@@ -1,5 +1,6 @@
 #include "workflows/twin/twin_objects.h"
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@
 #include "library_fit/fitted_object.h"
 #include "library_fit/library_fit.h"
 #include "physics_params/category_resolution.h"
+#include "workflows/twin/twin_free_form.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
@@ -32,33 +34,80 @@ std::string CategoryOf(const library_fit::FitKind& kind) {
 }
 
 // Returns unique names of asset folders: "mug_1", "mug_2".
-std::vector<std::string> NamesOf(const twin::TableReconstruction& table) {
-  std::map<std::string, int> count;
+std::vector<std::string> NamesOf(const TwinAssetSources& sources,
+                                 std::map<std::string, int>* count) {
   std::vector<std::string> names;
-  for (const twin::ReconstructedObject& object : table.objects) {
-    const std::string& kind = KindOf(object).name;
-    names.push_back(kind + "_" + std::to_string(++count[kind]));
+  for (const twin::ReconstructedObject& object : sources.table.objects) {
+    const std::string& base = object.retrieved >= 0
+                                  ? sources.assets[static_cast<size_t>(object.retrieved)].name
+                                  : KindOf(object).name;
+    names.push_back(base + "_" + std::to_string(++(*count)[base]));
   }
   return names;
 }
 
-// Writes one asset and returns its pose in the frame of the fitted instance.
-Eigen::Isometry3d WriteTwinAsset(const library_fit::SeenInstance& seen,
-                                 const library_fit::FitPhoto& photo, const std::string& name,
-                                 std::uint64_t seed, const fs::path& folder,
-                                 core::Findings* findings) {
+// Returns the position of the first moving joint at a share of its range.
+std::map<std::string, double> OpenJoint(const assets::ArticulatedAsset& asset, double opening) {
+  for (const assets::Joint& joint : asset.joints) {
+    if (joint.Moves()) return {{joint.name, joint.lower + opening * (joint.upper - joint.lower)}};
+  }
+  return {};
+}
+
+// Returns the entry of an object, all but its asset.
+TwinObject EntryOf(const twin::ReconstructedObject& object, const twin::Detection& detection) {
+  TwinObject entry;
+  entry.kind = KindOf(object).name;
+  entry.category = CategoryOf(KindOf(object));
+  entry.articulated = KindOf(object).articulated != nullptr;
+  entry.size = object.retrieved >= 0
+                   ? object.fit.instance.size
+                   : core::Bounds(library_fit::InstanceMesh(object.fit.instance).mesh).sizes();
+  entry.confidence = object.confidence;
+  entry.outline_iou = object.fit.agreement.iou;
+  entry.position_error = object.position_error;
+  entry.yaw_error = object.yaw_error;
+  entry.size_error = object.size_error;
+  entry.box = detection.box;
+  entry.world_from_object = object.fit.pose.WorldFromObject();
+  return entry;
+}
+
+// Copies an asset of the user.
+void CopyAsset(const twin::TableAsset& asset, const fs::path& folder, TwinObject* entry) {
+  std::error_code fault;
+  fs::copy(asset.folder, folder, fs::copy_options::recursive | fs::copy_options::skip_symlinks,
+           fault);
+  if (fault) throw core::Error("cannot be copied: " + fault.message(), asset.folder.string());
+  entry->source = TwinSource::kRetrieved;
+  entry->kind = asset.name;
+  entry->category = asset.category;
+  entry->articulated = asset.articulated;
+}
+
+// Writes a fitted object, and moves the entry's pose from the instance's frame to the asset's.
+void WriteFittedAsset(const library_fit::SeenInstance& seen, const library_fit::FitPhoto& photo,
+                      std::uint64_t seed, const fs::path& folder, TwinObject* entry,
+                      core::Findings* findings) {
   const library_fit::FitKind& kind =
       library_fit::FitKinds()[static_cast<size_t>(seen.instance.kind)];
   fs::create_directories(folder);
   if (kind.articulated != nullptr) {
     assets::ArticulatedAsset asset = library_fit::PaintedAsset(seen, photo);
-    asset.name = name;
+    asset.name = entry->name;
     assets::WriteArticulatedAsset(asset, folder);
     core::WritePng(folder / "preview.png", asset_build::ArticulatedPreview(asset));
-    return Eigen::Isometry3d::Identity();
+    if (kind.opening > 0.0) entry->joints = OpenJoint(asset, seen.instance.opening);
+    if (!entry->joints.empty()) {
+      findings->push_back({"twin-joint-closed", core::Severity::kInfo, entry->name,
+                           "twin.json has the joint's position in the photo; physics and the "
+                           "commands of scene begin with it closed",
+                           entry->joints.begin()->second});
+    }
+    return;
   }
   asset_build::BuildRequest request;
-  request.name = name;
+  request.name = entry->name;
   request.source = "twin";
   request.category = physics_params::RequireCategory(kind.rigid->category);
   request.seed = seed;
@@ -70,62 +119,121 @@ Eigen::Isometry3d WriteTwinAsset(const library_fit::SeenInstance& seen,
   core::WritePng(folder / "preview.png", asset_build::AssetPreview(asset));
   for (core::Finding finding : asset.findings) {
     if (finding.severity == core::Severity::kInfo) continue;
-    finding.place = name;
+    finding.place = entry->name;
     findings->push_back(std::move(finding));
   }
-  return asset.link_from_input.inverse();
+  entry->world_from_object = entry->world_from_object * asset.link_from_input.inverse();
+}
+
+// Writes the asset of the object `index`: retrieved or fitted.
+TwinObject WriteTwinAsset(const TwinAssetSources& sources, size_t index, const std::string& name,
+                          const fs::path& folder, core::Findings* findings) {
+  const twin::ReconstructedObject& object = sources.table.objects[index];
+  const twin::Detection& detection =
+      sources.detections.objects[static_cast<size_t>(object.detection)];
+  TwinObject entry = EntryOf(object, detection);
+  entry.name = name;
+  const Eigen::Isometry3d view_from_instance = entry.world_from_object;
+  if (!sources.placements.poses.empty()) {
+    entry.world_from_object = sources.placements.poses[index].WorldFromObject();
+    entry.seen_in = sources.placements.seen_in[index];
+  }
+  if (object.retrieved >= 0) {
+    CopyAsset(sources.assets[static_cast<size_t>(object.retrieved)], folder, &entry);
+    return entry;
+  }
+  const core::Camera camera = sources.table.camera.At(sources.photo.width, sources.photo.height);
+  library_fit::SeenInstance seen{object.fit.instance, camera};
+  seen.camera.world_from_camera = view_from_instance.inverse() * camera.world_from_camera;
+  WriteFittedAsset(seen, library_fit::FitPhotoOf(sources.photo, detection.alpha),
+                   sources.seed + static_cast<std::uint64_t>(index), folder, &entry, findings);
+  return entry;
+}
+
+core::Finding AssetFinding(const core::Error& error, const char* code, const std::string& name) {
+  core::Finding finding = core::FindingOf(error);
+  finding.code = code;
+  finding.severity = core::Severity::kWarning;
+  finding.place = name;
+  return finding;
+}
+
+// Replaces the assets of doubtful objects by reconstructions from the photo, one after the other.
+void LiftDoubtful(const TwinAssetSources& sources, const fs::path& folder,
+                  std::vector<std::optional<TwinObject>>* made, core::Progress* progress,
+                  core::Findings* findings) {
+  const core::Camera camera = sources.table.camera.At(sources.photo.width, sources.photo.height);
+  for (size_t i = 0; i < made->size(); ++i) {
+    const twin::ReconstructedObject& object = sources.table.objects[i];
+    if (!(*made)[i] || object.retrieved >= 0 || object.confidence >= sources.free_form) continue;
+    TwinObject& entry = *(*made)[i];
+    try {
+      LiftTwinObject(sources.photo,
+                     sources.detections.objects[static_cast<size_t>(object.detection)], camera,
+                     object.fit.pose, sources.seed, folder / entry.name, &entry, progress);
+      if (!sources.placements.poses.empty()) {
+        // Several photos place the object elsewhere than its own does.
+        entry.world_from_object = sources.placements.poses[i].WorldFromObject() *
+                                  object.fit.pose.WorldFromObject().inverse() *
+                                  entry.world_from_object;
+      }
+    } catch (const core::Error& error) {
+      findings->push_back(AssetFinding(error, "twin-free-form-failed", entry.name));
+    }
+  }
 }
 
 }  // namespace
 
-std::vector<TwinObject> WriteTwinAssets(const twin::TableReconstruction& table,
-                                        const core::Image& photo,
-                                        const twin::Detections& detections, std::uint64_t seed,
-                                        const fs::path& folder, core::Progress* progress,
+TwinPlacements TakeMerged(const twin::MergedTables& merged, int view,
+                          twin::TableReconstruction* table) {
+  const double log_factor =
+      merged.log_scale + merged.first_from_view[static_cast<size_t>(view)].log_scale;
+  const double factor = std::exp(log_factor);
+  TwinPlacements placements;
+  std::vector<twin::ReconstructedObject> taken;
+  for (const twin::MergedObject& object : merged.objects) {
+    if (object.view != view) continue;
+    twin::ReconstructedObject copy = table->objects[static_cast<size_t>(object.object)];
+    copy.fit.pose.x *= factor;
+    copy.fit.pose.y *= factor;
+    if (copy.retrieved < 0) copy.fit.instance.size *= object.size_factor;
+    copy.confidence = object.confidence;
+    copy.position_error = object.position_error;
+    copy.yaw_error = object.yaw_error;
+    copy.size_error = object.size_error;
+    taken.push_back(std::move(copy));
+    placements.poses.push_back(object.pose);
+    placements.seen_in.push_back(object.seen_in);
+  }
+  table->objects = std::move(taken);
+  table->camera.height *= factor;
+  table->log_scale_error = merged.log_scale_error;
+  return placements;
+}
+
+std::vector<TwinObject> WriteTwinAssets(const TwinAssetSources& sources, const fs::path& folder,
+                                        std::map<std::string, int>* count, core::Progress* progress,
                                         core::Findings* findings) {
-  const core::Camera camera = table.camera.At(photo.width, photo.height);
-  const std::vector<std::string> names = NamesOf(table);
-  std::vector<std::optional<TwinObject>> made(table.objects.size());
-  std::vector<core::Findings> found(table.objects.size());
-  core::ParallelFor(static_cast<int>(table.objects.size()), [&](int i) {
+  const std::vector<std::string> names = NamesOf(sources, count);
+  std::vector<std::optional<TwinObject>> made(names.size());
+  std::vector<core::Findings> found(names.size());
+  fs::create_directories(folder);
+  core::ParallelFor(static_cast<int>(names.size()), [&](int i) {
     const auto at = static_cast<size_t>(i);
-    const twin::ReconstructedObject& object = table.objects[at];
-    const twin::Detection& detection = detections.objects[static_cast<size_t>(object.detection)];
-    const Eigen::Isometry3d world_from_instance = object.fit.pose.WorldFromObject();
-    library_fit::SeenInstance seen{object.fit.instance, camera};
-    seen.camera.world_from_camera = world_from_instance.inverse() * camera.world_from_camera;
-    TwinObject entry;
-    entry.name = names[at];
-    entry.kind = KindOf(object).name;
-    entry.category = CategoryOf(KindOf(object));
-    entry.articulated = KindOf(object).articulated != nullptr;
-    entry.size = core::Bounds(library_fit::InstanceMesh(object.fit.instance).mesh).sizes();
-    entry.confidence = object.confidence;
-    entry.outline_iou = object.fit.agreement.iou;
-    entry.position_error = object.position_error;
-    entry.yaw_error = object.yaw_error;
-    entry.size_error = object.size_error;
-    entry.box = detection.box;
     try {
-      const Eigen::Isometry3d instance_from_asset =
-          WriteTwinAsset(seen, library_fit::FitPhotoOf(photo, detection.alpha), entry.name,
-                         seed + static_cast<std::uint64_t>(i), folder / entry.name, &found[at]);
-      entry.world_from_object = world_from_instance * instance_from_asset;
-      made[at] = std::move(entry);
+      made[at] = WriteTwinAsset(sources, at, names[at], folder / names[at], &found[at]);
     } catch (const core::Error& error) {
       fs::remove_all(folder / names[at]);
-      core::Finding finding = core::FindingOf(error);
-      finding.code = "twin-asset-failed";
-      finding.severity = core::Severity::kWarning;
-      finding.place = names[at];
-      found[at].push_back(std::move(finding));
+      found[at].push_back(AssetFinding(error, "twin-asset-failed", names[at]));
     }
     progress->Advance();
   });
+  for (const core::Findings& of : found) findings->insert(findings->end(), of.begin(), of.end());
+  if (sources.free_form > 0.0) LiftDoubtful(sources, folder, &made, progress, findings);
   std::vector<TwinObject> objects;
-  for (size_t i = 0; i < made.size(); ++i) {
-    if (made[i]) objects.push_back(std::move(*made[i]));
-    findings->insert(findings->end(), found[i].begin(), found[i].end());
+  for (std::optional<TwinObject>& object : made) {
+    if (object) objects.push_back(std::move(*object));
   }
   return objects;
 }

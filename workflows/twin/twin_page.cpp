@@ -23,7 +23,9 @@ std::string RowOf(const TwinObject& object) {
                 100.0 * object.size.y(), 100.0 * object.size.z(), 1000.0 * object.settled);
   return "<tr><td><a href=\"assets/" + core::EscapedMarkup(object.name) + "/preview.png\">" +
          core::EscapedMarkup(object.name) + "</a></td><td>" + core::EscapedMarkup(object.category) +
-         "</td>" + numbers + "</tr>\n";
+         (object.source == TwinSource::kRetrieved ? " (your asset)" : "") +
+         (object.source == TwinSource::kLifted ? " (free form)" : "") + "</td>" + numbers +
+         "</tr>\n";
 }
 
 }  // namespace

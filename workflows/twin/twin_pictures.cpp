@@ -17,10 +17,10 @@ constexpr float kPhotoShare = 0.35f;   // of the photo's brightness behind the t
 constexpr int kAboveSide = 480;        // pixels
 constexpr double kAboveMargin = 0.08;  // m around the objects
 
-// The visual mesh of an asset at rest, in the asset's frame.
-core::TexturedMesh VisualOf(const fs::path& asset, bool articulated) {
-  if (!articulated) return assets::ReadAsset(asset).visual;
-  return assets::VisualAtPositions(assets::ReadArticulatedAsset(asset));
+// The visual mesh of an object as the photo shows it, in the asset's frame.
+core::TexturedMesh VisualOf(const fs::path& asset, const TwinObject& object) {
+  if (!object.articulated) return assets::ReadAsset(asset).visual;
+  return assets::VisualAtPositions(assets::ReadArticulatedAsset(asset), object.joints);
 }
 
 core::Image OverGrey(const core::Image& rgba, std::uint8_t grey) {
@@ -70,7 +70,7 @@ TwinPictures RenderTwin(const TwinRecord& record, const fs::path& assets,
   std::deque<core::TexturedMesh> meshes;
   render::Scene scene;
   for (const TwinObject& object : record.objects) {
-    meshes.push_back(VisualOf(assets / object.name, object.articulated));
+    meshes.push_back(VisualOf(assets / object.name, object));
     scene.Add(&meshes.back(), object.world_from_object);
   }
   scene.Commit();

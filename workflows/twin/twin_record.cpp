@@ -15,6 +15,16 @@ namespace {
 constexpr int kTwinFormat = 1;
 constexpr std::uint64_t kMostBytes = 8u << 20;
 
+constexpr const char* kSourceNames[] = {"fitted", "retrieved", "lifted"};
+
+TwinSource TwinSourceOf(const core::JsonField& object) {
+  const std::string name = object.TextOr("source", kSourceNames[0]);
+  for (int i = 0; i < 3; ++i) {
+    if (name == kSourceNames[i]) return static_cast<TwinSource>(i);
+  }
+  object["source"].FailAs("fitted, retrieved or lifted");
+}
+
 core::OrderedJson NumbersOf(std::initializer_list<double> values) {
   core::OrderedJson numbers = core::OrderedJson::array();
   for (const double value : values) numbers.push_back(value);
@@ -27,11 +37,13 @@ core::OrderedJson ObjectJson(const TwinObject& object) {
   core::OrderedJson json;
   json["name"] = object.name;
   json["asset"] = "assets/" + object.name;
+  json["source"] = kSourceNames[static_cast<int>(object.source)];
   json["kind"] = object.kind;
   json["category"] = object.category;
   json["translation"] = NumbersOf({at.x(), at.y(), at.z()});
   json["quaternion_wxyz"] = NumbersOf({turn.w(), turn.x(), turn.y(), turn.z()});
   json["welded"] = object.articulated;
+  if (!object.joints.empty()) json["joints"] = object.joints;
   json["size"] = NumbersOf({object.size.x(), object.size.y(), object.size.z()});
   json["confidence"] = object.confidence;
   json["outline_iou"] = object.outline_iou;
@@ -41,6 +53,7 @@ core::OrderedJson ObjectJson(const TwinObject& object) {
   json["settled"] = object.settled;
   json["box"] = NumbersOf(
       {object.box.min().x(), object.box.min().y(), object.box.max().x(), object.box.max().y()});
+  if (!object.seen_in.empty()) json["seen_in"] = object.seen_in;
   return json;
 }
 
@@ -62,10 +75,16 @@ TwinObject ReadObject(const core::JsonField& field) {
       field["asset"].Text() != "assets/" + object.name) {
     field["asset"].Fail("must be assets/ and the object's name, a name of a folder");
   }
+  object.source = TwinSourceOf(field);
   object.kind = field["kind"].Name();
   object.category = field["category"].Name();
   object.world_from_object = PoseIn(field);
   object.articulated = field["welded"].Flag();
+  if (field.Has("joints")) {
+    for (const auto& [joint, position] : field["joints"].Members()) {
+      object.joints[joint] = position.Number();
+    }
+  }
   object.size = field["size"].Vector<3>();
   object.confidence = field["confidence"].NumberWithin(0.0, 1.0);
   object.outline_iou = field["outline_iou"].NumberWithin(0.0, 1.0);
@@ -75,6 +94,7 @@ TwinObject ReadObject(const core::JsonField& field) {
   object.settled = field["settled"].NumberWithin(0.0);
   const Eigen::Vector4d box = field["box"].Vector<4>();
   object.box = {Eigen::Vector2d(box[0], box[1]), Eigen::Vector2d(box[2], box[3])};
+  if (field.Has("seen_in")) object.seen_in = field["seen_in"].Ints();
   return object;
 }
 
