@@ -83,7 +83,7 @@ int TrainPriors(PriorFlags flags, const CommonOptions& common) {
   if (flags.rate > 0.0) library.trainer.learning_rate = flags.rate;
   twin::DetectorTrainingOptions& detector = flags.request.detector_options;
   detector.seed = common.seed;
-  detector.trainer.resume = detector.camera_trainer.resume = flags.resume;
+  detector.trainer.resume = flags.resume;
   if (flags.rate > 0.0) detector.trainer.learning_rate = flags.rate;
   if (!flags.from.empty()) {
     flags.request.shape_options.start = workflows::ShapeWeights(flags.from);
@@ -167,10 +167,6 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
   command
       ->add_option("--detector-steps", flags->request.detector_options.trainer.steps,
                    "Steps of the detector of objects on tables")
-      ->capture_default_str();
-  command
-      ->add_option("--camera-steps", flags->request.detector_options.camera_trainer.steps,
-                   "Steps of the detector's camera, after those")
       ->capture_default_str();
   command
       ->add_option("--detector-pool", flags->request.detector_options.pool,

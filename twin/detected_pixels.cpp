@@ -14,7 +14,7 @@ constexpr float kLeastHeat = 0.25f;  // of a peak
 constexpr int kPeakReach = 3;        // pixels: a peak is the largest within
 constexpr float kFarthest = 60.0f;   // pixels from where an offset points to its centre
 constexpr int kLeastGroup = 12;      // pixels
-constexpr int kTouchReach = 2;         // pixels between groups that touch
+constexpr int kTouchReach = 2;       // pixels between groups that touch
 // Groups that touch are one object if the distance of the means of where their offsets point is
 // less than this share of the distance of the means of their pixels. Of two objects each points to
 // its own middle, so that the share is about 1, even if the offsets are too short; of the parts of

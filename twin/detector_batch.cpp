@@ -72,7 +72,6 @@ DetectorExample PartOfExample(const DetectorExample& example, int width, int hei
   DetectorExample part;
   part.picture.resize(example.picture.size());
   part.object.resize(example.object.size());
-  part.camera = example.camera;
   const auto clamped = [](double at, int size) { return std::clamp(at, 0.0, size - 1.001); };
   for (int y = 0; y < height; ++y) {
     const double sy = clamped(top + side * (y + 0.5) - 0.5, height);
@@ -110,7 +109,6 @@ DetectorBatch BatchOf(const std::vector<const DetectorExample*>& examples, int w
   batch.known = torch::ones({size, 1, height, width});
   batch.centre = torch::zeros({size, 1, height, width});
   batch.offset = torch::zeros({size, 2, height, width});
-  batch.camera = torch::empty({size, kCameraNumbers});
   std::vector<std::uint64_t> seeds;
   for (size_t i = 0; i < examples.size(); ++i) seeds.push_back((*rng)());
   core::ParallelFor(static_cast<int>(size), [&](int i) {
@@ -124,27 +122,21 @@ DetectorBatch BatchOf(const std::vector<const DetectorExample*>& examples, int w
               pixels.begin() + static_cast<std::ptrdiff_t>(bytes * at));
     WriteTruth(example, i, width, height, &batch);
   });
-  auto camera = batch.camera.accessor<float, 2>();
-  for (std::int64_t i = 0; i < size; ++i) {
-    for (int k = 0; k < kCameraNumbers; ++k) {
-      camera[i][k] = examples[static_cast<size_t>(i)]->camera[static_cast<size_t>(k)];
-    }
-  }
   batch.pictures = DetectorPictures(pixels.data(), static_cast<int>(size), height, width).clone();
   return batch;
 }
 
 void MoveBatch(const torch::Device& device, DetectorBatch* batch) {
-  for (torch::Tensor* t : {&batch->pictures, &batch->object, &batch->known, &batch->centre,
-                           &batch->offset, &batch->camera}) {
+  for (torch::Tensor* t :
+       {&batch->pictures, &batch->object, &batch->known, &batch->centre, &batch->offset}) {
     *t = t->to(device);
   }
 }
 
 DetectorBatch PartOfBatch(const DetectorBatch& batch, std::int64_t first, std::int64_t count) {
   const auto cut = [&](const torch::Tensor& t) { return t.slice(0, first, first + count); };
-  return {cut(batch.pictures), cut(batch.object), cut(batch.known),
-          cut(batch.centre),   cut(batch.offset), cut(batch.camera)};
+  return {cut(batch.pictures), cut(batch.object), cut(batch.known), cut(batch.centre),
+          cut(batch.offset)};
 }
 
 void AugmentBatch(DetectorBatch* batch) {
@@ -160,7 +152,6 @@ void AugmentBatch(DetectorBatch* batch) {
   }
   const torch::Tensor sign = 1.0 - 2.0 * mirrored.to(torch::kFloat).reshape({count});
   batch->offset.select(1, 0).mul_(sign.reshape({count, 1, 1}));
-  batch->camera.select(1, 1).mul_(sign);
   torch::Tensor color = 0.5 * (batch->pictures + 1.0);
   color = color * torch::exp(0.25 * torch::randn({count, 1, 1, 1}, like) +
                              0.08 * torch::randn({count, 3, 1, 1}, like));

@@ -16,7 +16,6 @@ struct DetectorBatch {
   torch::Tensor known;     // (B x 1 x H x W) 0: left out
   torch::Tensor centre;    // (B x 1 x H x W) heat in [0, 1]
   torch::Tensor offset;    // (B x 2 x H x W)
-  torch::Tensor camera;    // (B x 4), of the whole pictures
 };
 
 // Returns the batch of B pictures of `width` x `height` pixels. A share `part_share` of them shows

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "core/camera.h"
 #include "twin/table_scene.h"
 
 namespace simwright::twin {
@@ -13,11 +11,7 @@ namespace simwright::twin {
 struct DetectorExample {
   std::vector<std::uint8_t> picture;  // (height x width x 3) RGB
   std::vector<std::uint8_t> object;   // (height x width) 1 + the object's index, 0: none
-  std::array<float, 4> camera{};      // as DetectorOutput::camera
 };
-
-// Returns the numbers of a camera above the plane z = 0 (DetectorOutput::camera).
-std::array<float, 4> CameraNumbers(const core::Camera& camera);
 
 // Renders a random scene; a pure function of the arguments.
 DetectorExample MakeDetectorExample(const TableSceneSources& sources,

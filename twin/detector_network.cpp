@@ -10,7 +10,6 @@ namespace simwright::twin {
 namespace {
 
 constexpr int kPixelNumbers = 4;  // object, centre, two of the offset
-constexpr int kCameraFeatures = 48, kCameraRows = 3, kCameraColumns = 4, kCameraHidden = 128;
 
 nn::UNetOptions UNetOf(const DetectorNetworkOptions& options) {
   nn::UNetOptions unet;
@@ -64,56 +63,13 @@ DetectorNetworkOptions ReadDetectorSizes(const std::filesystem::path& weights) {
   return options;
 }
 
-CameraNetworkImpl::CameraNetworkImpl() {
-  torch::nn::Sequential features;
-  int from = 4;
-  for (const int to : {32, 48, 96, 128}) {
-    features->push_back(
-        torch::nn::Conv2d(torch::nn::Conv2dOptions(from, to, 3).stride(2).padding(1)));
-    features->push_back(torch::nn::GroupNorm(torch::nn::GroupNormOptions(to / 8, to)));
-    features->push_back(torch::nn::SiLU());
-    from = to;
-  }
-  features->push_back(torch::nn::Conv2d(torch::nn::Conv2dOptions(from, kCameraFeatures, 1)));
-  features->push_back(torch::nn::SiLU());
-  features->push_back(torch::nn::AdaptiveAvgPool2d(
-      torch::nn::AdaptiveAvgPool2dOptions({kCameraRows, kCameraColumns})));
-  features_ = register_module("features", features);
-  hidden_ = register_module(
-      "hidden", torch::nn::Linear(kCameraFeatures * kCameraRows * kCameraColumns, kCameraHidden));
-  numbers_ = register_module("numbers", torch::nn::Linear(kCameraHidden, 2 * kCameraNumbers));
-}
-
-torch::Tensor CameraNetworkImpl::forward(const torch::Tensor& seen) {
-  const torch::Tensor features = features_->forward(torch::avg_pool2d(seen, 2));
-  return numbers_(torch::silu(hidden_(features.flatten(1))));
-}
-
 DetectorNetworkImpl::DetectorNetworkImpl(const DetectorNetworkOptions& options) {
   unet_ = register_module("unet", nn::UNet(UNetOf(options)));
-  camera_ = register_module("camera", CameraNetwork());
-}
-
-DetectorOutput DetectorNetworkImpl::DetectPixels(const torch::Tensor& pictures) {
-  const torch::Tensor pixels = unet_(pictures);
-  DetectorOutput output;
-  output.object = pixels.slice(1, 0, 1);
-  output.centre = pixels.slice(1, 1, 2);
-  output.offset = pixels.slice(1, 2, 4);
-  return output;
 }
 
 DetectorOutput DetectorNetworkImpl::Detect(const torch::Tensor& pictures) {
-  DetectorOutput output;
-  {
-    const torch::NoGradGuard no_grad;
-    output = DetectPixels(pictures);
-  }
-  const torch::Tensor camera =
-      camera_(torch::cat({pictures, 2.0 * torch::sigmoid(output.object) - 1.0}, 1));
-  output.camera = camera.slice(1, 0, kCameraNumbers);
-  output.log_b = torch::clamp(camera.slice(1, kCameraNumbers, 2 * kCameraNumbers), -4.5, 1.0);
-  return output;
+  const torch::Tensor pixels = unet_(pictures);
+  return {pixels.slice(1, 0, 1), pixels.slice(1, 1, 2), pixels.slice(1, 2, 4)};
 }
 
 torch::Tensor DetectorPictures(const std::uint8_t* rgb, int count, int height, int width) {

@@ -57,21 +57,6 @@ DetectedPixels PixelsOf(const DetectorOutput& output) {
   return pixels;
 }
 
-TableCameraGuess GuessOf(const DetectorOutput& output) {
-  const torch::Tensor camera = output.camera.contiguous(), log_b = output.log_b.contiguous();
-  const float *mean = camera.data_ptr<float>(), *error = log_b.data_ptr<float>();
-  TableCameraGuess guess;
-  guess.camera.elevation = std::clamp<double>(mean[0], 0.06, 1.5);
-  guess.camera.roll = std::clamp<double>(mean[1], -0.7, 0.7);
-  guess.camera.focal = std::clamp<double>(std::exp(mean[2]), 0.35, 8.0);
-  guess.camera.height = std::clamp<double>(std::exp(mean[3]), 0.06, 10.0);
-  guess.elevation_error = std::exp(error[0]);
-  guess.roll_error = std::exp(error[1]);
-  guess.log_focal_error = std::exp(error[2]);
-  guess.log_height_error = std::exp(error[3]);
-  return guess;
-}
-
 // Returns the objects that the groups of pixels show, in the photo's pixels.
 std::vector<Detection> ObjectsOf(const DetectedPixels& pixels, const PixelGroups& groups,
                                  const core::Image& photo) {
@@ -150,7 +135,7 @@ struct ObjectDetector::Network {
   DetectorNetwork net{nullptr};
 
   // Returns the mean of the answers for the photo and its mirror image at all scales, in the pixels
-  // of the finest one; the camera's at the first scale.
+  // of the finest one.
   DetectorOutput Look(const core::Image& photo) {
     const std::vector<std::int64_t> finest = SidesAt(photo, kScales.back());
     DetectorOutput mean;
@@ -160,9 +145,8 @@ struct ObjectDetector::Network {
           core::Resize(photo, static_cast<int>(sides[1]), static_cast<int>(sides[0]));
       const torch::Tensor picture =
           DetectorPictures(seen.pixels.data(), 1, seen.height, seen.width);
-      const DetectorOutput straight =
-          scale == kScales.front() ? net->Detect(picture) : net->DetectPixels(picture);
-      const DetectorOutput mirrored = net->DetectPixels(torch::flip(picture, {3}));
+      const DetectorOutput straight = net->Detect(picture);
+      const DetectorOutput mirrored = net->Detect(torch::flip(picture, {3}));
       const torch::Tensor sign = torch::tensor({-1.0f, 1.0f}).reshape({1, 2, 1, 1});
       const auto add = [&](const torch::Tensor& one, const torch::Tensor& other, double factor,
                            torch::Tensor* sum) {
@@ -175,9 +159,6 @@ struct ObjectDetector::Network {
       add(straight.centre, mirrored.centre, 1.0, &mean.centre);
       add(straight.offset, sign * mirrored.offset,
           static_cast<double>(finest[1]) / static_cast<double>(sides[1]), &mean.offset);
-      if (scale != kScales.front()) continue;
-      mean.camera = straight.camera;
-      mean.log_b = straight.log_b;
     }
     return mean;
   }
@@ -216,7 +197,6 @@ Detections ObjectDetector::Detect(const core::Image& photo) const {
       found.objects.begin(), found.objects.end(),
       [](const Detection& a, const Detection& b) { return a.box.volume() > b.box.volume(); });
   RefineOutlines(photo, &found.objects);
-  found.camera = GuessOf(output);
   double covered = 0.0;
   for (const float share : pixels.object) covered += share >= 0.5f ? 1.0 : 0.0;
   found.object_share = covered / static_cast<double>(pixels.object.size());

@@ -27,8 +27,8 @@ struct Detections {
   int left_out = 0;           // places that look like objects, with too little confidence
 };
 
-// Finds the objects in a photo of a table, and guesses the camera: one small network, some tenths
-// of a second a photo.
+// Finds the objects in a photo of a table by one small network, in less than a second a photo. The
+// camera of its answer is the usual one of such photos.
 class ObjectDetector {
  public:
   // Throws core::Error where the weights are missing or damaged.

@@ -11,7 +11,7 @@ namespace simwright::twin {
 struct TableCamera {
   double elevation = 0.6;               // rad, of the optical axis below the horizon
   double roll = 0.0;                    // rad, about the optical axis
-  double focal = 1.0;                   // over the picture's width
+  double focal = 0.9;                   // over the picture's width
   double height = 0.5;                  // m, above the table
   Eigen::Vector2d principal{0.5, 0.5};  // point, in widths and heights of the picture
 
@@ -28,10 +28,10 @@ struct TableCamera {
 TableCamera TableCameraOf(const core::Camera& camera);
 
 // The numbers with their uncertainties: mean absolute errors, of focal length and height those of
-// their logarithms; 0: known.
+// their logarithms; 0: known. By default those of photos that people take of tables.
 struct TableCameraGuess {
   TableCamera camera;
-  double elevation_error = 0.1, roll_error = 0.03, log_focal_error = 0.2, log_height_error = 0.3;
+  double elevation_error = 0.18, roll_error = 0.03, log_focal_error = 0.2, log_height_error = 0.4;
 };
 
 }  // namespace simwright::twin

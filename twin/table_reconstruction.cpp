@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "library_fit/fit_kinds.h"
+#include "twin/camera_guess.h"
 #include "twin/camera_search.h"
 #include "twin/joint_refinement.h"
 #include "twin/observed_object.h"
@@ -98,6 +99,7 @@ TableReconstruction ReconstructTable(const core::Image& photo, const Detections&
   const std::vector<ObservedObject> observed =
       ObserveObjects(photo, detections.objects, options.side);
   const auto count = static_cast<std::int64_t>(observed.size());
+  guess = GuessByObjects(observed, options.kinds, prior, width, height, guess);
   const bool search =
       guess.elevation_error > 0.0 || guess.log_focal_error > 0.0 || guess.roll_error > 0.0;
   TableFitOptions fit = options.fit;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -57,8 +58,12 @@ SettledTwin SettleReconstruction(const core::Image& photo, const twin::Detection
   core::Findings findings;
   workflows::TwinRecord record;
   record.camera = table->camera.At(photo.width, photo.height);
-  record.objects = workflows::WriteTwinAssets(*table, photo, detections, seed, folder.path(),
-                                              &silent, &findings);
+  const std::vector<twin::TableAsset> assets;
+  const workflows::TwinPlacements placements;
+  std::map<std::string, int> names;
+  const workflows::TwinAssetSources sources{*table,     photo, detections, assets,
+                                            placements, 0.0,   seed};
+  record.objects = workflows::WriteTwinAssets(sources, folder.path(), &names, &silent, &findings);
   SettledTwin settled;
   settled.complete = record.objects.size() == table->objects.size();
   if (record.objects.empty()) return settled;

@@ -27,8 +27,6 @@ DetectorTrainingOptions SmallTraining() {
   options.trainer.learning_rate = 4e-3;
   options.trainer.save_every = 150;
   options.trainer.ema_decay = 0.9;
-  options.camera_trainer = options.trainer;
-  options.camera_trainer.steps = 50;
   return options;
 }
 
@@ -40,7 +38,6 @@ TEST(TrainDetector, LearnsAndWritesWeights) {
   core::Progress progress;
   TrainDetector({}, SmallTraining(), weights, &progress,
                 [&](const asset_lift::PriorTrainingReport& report) {
-                  if (report.metrics.front().first != "object IoU") return;
                   overlap.push_back(report.metrics.front().second);
                 });
   ASSERT_EQ(overlap.size(), 3u);

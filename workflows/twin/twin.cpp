@@ -68,9 +68,6 @@ TwinDetections DetectObjects(const TwinRequest& request, const TwinView& view,
                       "simwright prior train --only detector -o models makes them; --objects, "
                       "--llm or --depth find the objects without it");
   }
-  if (has_weights && !photo.plane) {
-    detected.found.camera = twin::ObjectDetector(weights).Detect(photo.rgb).camera;
-  }
   return detected;
 }
 

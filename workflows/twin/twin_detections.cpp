@@ -133,6 +133,13 @@ void LimitDetections(int most, TwinDetections* detections, core::Findings* findi
                              std::to_string(most) + " largest are rebuilt",
                          static_cast<double>(count), "--most-objects takes more"});
   }
+  if (found->left_out > 0) {
+    findings->push_back({"twin-left-out", core::Severity::kInfo, "",
+                         std::to_string(found->left_out) +
+                             " places look like objects, with a confidence below 0.45; they are "
+                             "left out",
+                         static_cast<double>(found->left_out), "--objects gives boxes"});
+  }
   const auto cut = std::count_if(found->objects.begin(), found->objects.end(),
                                  [](const twin::Detection& object) { return object.cut; });
   if (cut == 0) return;
