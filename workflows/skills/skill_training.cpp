@@ -49,6 +49,8 @@ SkillRun RunOf(const TrainRequest& request) {
   run.proved_grasps = request.proved_grasps && AnyAssetHasGrasps(run.set);
   run.options.episode_seconds = request.episode_seconds;
   run.options.finger_friction = request.finger_friction;
+  run.options.placement_ranges = request.placement_ranges;
+  run.randomized = request.randomized;
   run.environments = request.environments;
   run.seed = request.seed;
   return run;
