@@ -90,7 +90,9 @@ ChosenMotion ChooseMotion(const MotionRecorder& recorder, const TransferTask& ta
   chosen.episodes = episodes;
   for (const auto& motion : recorded) chosen.recorded += motion.has_value();
   progress->Stage("try motions in perturbed twins", chosen.recorded);
-  for (const auto& motion : recorded) {
+  bool first_described = false;
+  for (size_t i = 0; i < recorded.size(); ++i) {
+    const std::optional<TransferMotion>& motion = recorded[i];
     if (!motion) continue;
     const TransferRate rate = RateAt(
         [&](double scale, std::uint64_t index) {
@@ -98,9 +100,11 @@ ChosenMotion ChooseMotion(const MotionRecorder& recorder, const TransferTask& ta
         },
         1.0, worlds);
     progress->Advance();
-    if (chosen.first.worlds == 0) {
+    const bool described = i % 2 == 0;
+    if (chosen.first.worlds == 0 || (described && !first_described)) {
       chosen.first = rate;
       chosen.first_motion = *motion;
+      first_described = described;
     }
     if (chosen.rate.worlds > 0 && rate.successes <= chosen.rate.successes) continue;
     chosen.rate = rate;

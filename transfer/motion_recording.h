@@ -35,8 +35,9 @@ struct ChosenMotion {
   TransferMotion motion;
   int episodes = 0, recorded = 0;  // tried; of them motions that succeed in the twin itself
   TransferRate rate;               // of the chosen one, in the worlds that it was chosen by
-  TransferRate first;              // of the first motion
+  // The first motion that was recorded where the objects stand in the twin, or else of all.
   TransferMotion first_motion;
+  TransferRate first;
 };
 
 // Records `episodes` motions and returns the one that succeeds in most of `worlds` perturbed twins;

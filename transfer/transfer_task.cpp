@@ -48,8 +48,14 @@ TransferWorld DescribedWorld(const workflows::SkillRun& run) {
   return world;
 }
 
-// Moves the placements of `start` with the objects of `world`, and adds the objects that it lacks.
+// Moves the placements of `start` with the objects of `world`, adds the objects that it lacks, and
+// removes those that the world lacks.
 void Place(const TransferWorld& described, const TransferWorld& world, tasks::InitialState* start) {
+  std::erase_if(start->placements, [&](const tasks::AssetPlacement& place) {
+    return std::none_of(
+        world.objects.begin(), world.objects.end(),
+        [&](const TransferObject& object) { return object.model.name == place.asset; });
+  });
   for (const TransferObject& object : world.objects) {
     const auto place = std::find_if(
         start->placements.begin(), start->placements.end(),
