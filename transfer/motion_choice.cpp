@@ -49,13 +49,12 @@ std::string MotionChoiceTable(const MotionChoice& choice) {
 }
 
 std::string MotionChoiceJson(const MotionChoice& choice) {
-  return core::JsonText({{"output", choice.file.string()},
-                         {"episodes", choice.episodes},
-                         {"recorded", choice.recorded},
-                         {"worlds", choice.rate.worlds},
-                         {"successes", choice.rate.successes},
-                         {"successes_of_the_first", choice.first.successes},
-                         {"seconds", choice.seconds}});
+  const core::Json json = {
+      {"output", choice.file.string()},     {"episodes", choice.episodes},
+      {"recorded", choice.recorded},        {"worlds", choice.rate.worlds},
+      {"successes", choice.rate.successes}, {"successes_of_the_first", choice.first.successes},
+      {"seconds", choice.seconds}};
+  return core::JsonText(json);
 }
 
 }  // namespace simwright::transfer
