@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array kDistances = {0.55, 0.45, 0.65, 0.75, 0.35};  // m from the middle
 constexpr std::array kDirections = {0.0, 25.0, -25.0, 50.0, -50.0, 80.0, -80.0};  // degrees
-constexpr double kFromObjects = 0.15;         // m from the base's centre to an object's AABB
+constexpr double kFromObjects = 0.25;         // m from the base's centre to an object's AABB
 constexpr double kLeast = 0.25, kMost = 0.8;  // m of an object's middle from the base's centre
 
 Eigen::AlignedBox2d Footprint(const Eigen::AlignedBox3d& box) {

@@ -22,7 +22,7 @@ RobotPlacement PlacementAt(const tasks::WorldModel& model, const tasks::WorldSta
 
 // Returns the place, standing on z = 0 and facing the middle of the objects, from which a Panda
 // reaches most of them: of a grid around that middle, on the side of the origin, the one nearest to
-// the line from the origin. No object is nearer to the base than 15 cm.
+// the line from the origin. No object is nearer to the base than 25 cm.
 RobotPlacement PlaceRobot(const tasks::WorldModel& model, const tasks::WorldState& state);
 
 }  // namespace simwright::transfer

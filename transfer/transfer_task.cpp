@@ -22,6 +22,9 @@ workflows::SkillRun Nominal(const workflows::SkillRun& run) {
   }
   workflows::SkillRun nominal = run;
   nominal.randomized = false;
+  for (const tasks::TaskAsset& asset : run.set.assets) {
+    nominal.options.placement_ranges.emplace(asset.name, skills::PlacementRange());
+  }
   return nominal;
 }
 
