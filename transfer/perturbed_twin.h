@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/random.h"
 #include "skills/skill_options.h"
 #include "transfer/transfer_world.h"
 #include "workflows/twin/twin_record.h"

@@ -2,14 +2,15 @@
 // table itself: the motion that holds in most twins perturbed within the stated uncertainty, beside
 // one that was chosen in the twin alone.
 //   bench_twin_transfer [--count N] [--first N] [--reconstruct] [--train] [--episodes N]
-//                       [--worlds N] [--iou X] [--tuning] [--photos FOLDER] [--threads N]
+//                       [--worlds N] [--iou X] [--tuning] [--photos FOLDER] [--keep FOLDER]
+//                       [--threads N]
 // --count: tables with an object that can be picked up (20), from number --first (0) on. The twin
 // is the table itself, displaced and scaled within its uncertainty, which is that of outlines with
 // an IoU of --iou (0.92); with --reconstruct it is rebuilt from the table's picture, with the true
 // masks and the known camera. Motions are those of the scripted expert; with --train, of policies
 // trained with the twin's ranges and without randomization, at most three minutes each.
 // --episodes: motions that are compared (8), in --worlds perturbed twins (16). Tables are held out,
-// with --tuning of training seeds.
+// with --tuning of training seeds. --keep: the twins stay below that folder.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -26,7 +27,7 @@
 #include "transfer/motion_recording.h"
 #include "transfer/twin_ranges.h"
 #include "transfer/twin_tasks.h"
-#include "true_table.h"
+#include "transfer_table.h"
 #include "twin/scene_sources.h"
 #include "workflows/priors/models_folder.h"
 #include "workflows/priors/prior_training.h"
@@ -45,6 +46,7 @@ struct Options {
   double iou = 0.92;
   bool reconstruct = false, train = false, tuning = false;
   std::vector<fs::path> photos;
+  fs::path keep;  // the twins stay there, by number; empty: nowhere
 };
 
 Options Parse(int argc, char** argv) {
@@ -69,6 +71,8 @@ Options Parse(int argc, char** argv) {
       options.worlds = std::atoi(value.c_str());
     } else if (flag == "--iou") {
       options.iou = std::atof(value.c_str());
+    } else if (flag == "--keep") {
+      options.keep = value;
     } else if (flag == "--photos") {
       options.photos.emplace_back(value);
     } else if (flag == "--threads") {
@@ -89,27 +93,17 @@ struct Outcome {
 };
 
 // Returns the first pick-up task of an object that stands for a true one.
-std::optional<tasks::Task> PickTask(const tasks::TaskSet& set, const TwinOfTable& twin,
+std::optional<tasks::Task> PickTask(const tasks::TaskSet& set, const TransferTable& table,
                                     size_t* object) {
   for (const tasks::Task& task : set.tasks) {
     if (!task.name.starts_with("pick_up_") || task.subtasks.size() != 1) continue;
-    for (size_t k = 0; k < twin.record.objects.size(); ++k) {
-      if (twin.record.objects[k].name != task.assets.front() || twin.truth[k] < 0) continue;
+    for (size_t k = 0; k < table.twin.objects.size(); ++k) {
+      if (table.twin.objects[k].name != task.assets.front() || !table.is_real[k]) continue;
       *object = k;
       return task;
     }
   }
   return std::nullopt;
-}
-
-// Returns the true table with the names of the twin's objects.
-transfer::TransferWorld WorldNamedAs(const TwinOfTable& twin, const TrueTable& table) {
-  transfer::TransferWorld world = table.world;
-  for (size_t k = 0; k < twin.truth.size(); ++k) {
-    if (twin.truth[k] < 0) continue;
-    world.objects[static_cast<size_t>(twin.truth[k])].model.name = twin.record.objects[k].name;
-  }
-  return world;
 }
 
 // A network whose action is zero: with guided actions, the scripted expert.
@@ -155,20 +149,19 @@ std::vector<rl::Policy> PoliciesFor(const transfer::TransferTask& task, bool tra
 }
 
 transfer::ChosenMotion Choose(const transfer::TransferTask& task,
-                              const std::vector<rl::Policy>& policies, const TwinOfTable& twin,
+                              const std::vector<rl::Policy>& policies, const TransferTable& table,
                               const fs::path& folder, const Options& options, std::uint64_t seed) {
   core::Progress silent;
   const transfer::MotionRecorder recorder(task, policies,
                                           transfer::PlacementRanges(folder, kSigmas));
-  return transfer::ChooseMotion(recorder, task,
-                                transfer::PerturbedTwinOf(task, twin.record, folder),
+  return transfer::ChooseMotion(recorder, task, transfer::PerturbedTwinOf(task, table.twin, folder),
                                 options.episodes, options.worlds, seed, &silent);
 }
 
 // Makes motions of outcome->task in the twin and replays them in the table.
-void TryTask(const TrueTable& table, const TwinOfTable& twin, const tasks::TaskSet& set,
-             const fs::path& folder, const Options& options, std::uint64_t seed, Outcome* outcome) {
-  const transfer::TransferWorld truth = WorldNamedAs(twin, table);
+void TryTask(const TransferTable& table, const tasks::TaskSet& set, const fs::path& folder,
+             const Options& options, std::uint64_t seed, Outcome* outcome) {
+  const transfer::TransferWorld& truth = table.table;
   const fs::path tasks = folder / "tasks.json";
   const transfer::TransferTask task(
       options.train ? TrainedRun(tasks, outcome->task, folder, true, folder / "randomized")
@@ -176,7 +169,7 @@ void TryTask(const TrueTable& table, const TwinOfTable& twin, const tasks::TaskS
   const std::vector<rl::Policy> policies = PoliciesFor(task, options.train);
   core::Rng rng = core::StreamRng(seed, 1);
   outcome->acts = task.Acts(truth, {&policies.front()}, rng);
-  const transfer::ChosenMotion chosen = Choose(task, policies, twin, folder, options, seed);
+  const transfer::ChosenMotion chosen = Choose(task, policies, table, folder, options, seed);
   outcome->held = chosen.rate;
   outcome->held_succeeds = task.Replays(truth, chosen.motion);
   if (!options.train) {
@@ -187,15 +180,14 @@ void TryTask(const TrueTable& table, const TwinOfTable& twin, const tasks::TaskS
   const transfer::TransferTask plain(
       TrainedRun(tasks, outcome->task, folder, false, folder / "plain"));
   const std::vector<rl::Policy> own = PoliciesFor(plain, true);
-  const transfer::ChosenMotion first = Choose(plain, own, twin, folder, options, seed);
+  const transfer::ChosenMotion first = Choose(plain, own, table, folder, options, seed);
   outcome->plain = first.first;
   outcome->plain_succeeds = plain.Replays(truth, first.first_motion);
 }
 
 // Returns none for a table whose twin has no object that can be picked up.
-std::optional<Outcome> TryTable(const TrueTable& table, const TwinOfTable& twin,
-                                const fs::path& folder, const Options& options,
-                                std::uint64_t seed) {
+std::optional<Outcome> TryTable(const TransferTable& table, const fs::path& folder,
+                                const Options& options, std::uint64_t seed) {
   core::Progress silent;
   transfer::TwinTasksRequest request;
   request.twin = folder;
@@ -203,14 +195,14 @@ std::optional<Outcome> TryTable(const TrueTable& table, const TwinOfTable& twin,
   request.count = 50;
   const workflows::TasksReport made = transfer::MakeTwinTasks(request, &silent);
   size_t object = 0;
-  const std::optional<tasks::Task> pick = PickTask(made.set, twin, &object);
+  const std::optional<tasks::Task> pick = PickTask(made.set, table, &object);
   if (!pick) return std::nullopt;
   Outcome outcome;
   outcome.task = pick->name;
-  outcome.position_error = twin.record.objects[object].position_error;
+  outcome.position_error = table.twin.objects[object].position_error;
   outcome.held.worlds = outcome.plain.worlds = options.worlds;
   try {
-    TryTask(table, twin, made.set, folder, options, seed, &outcome);
+    TryTask(table, made.set, folder, options, seed, &outcome);
   } catch (const core::Error& error) {  // no motion: the robot would not be started
     std::printf("    %s\n", error.what());
   }
@@ -261,14 +253,15 @@ void Run(const Options& options) {
     core::Rng rng = core::StreamRng(options.tuning ? 80 : 79, static_cast<std::uint64_t>(number));
     const core::TemporaryFolder folder;
     const auto seed = static_cast<std::uint64_t>(10000 * (number + 1));
-    const TrueTable table = TrueTableOf(twin::SampleTableScene(sources, scene_options, &rng), seed,
-                                        folder.path() / "true");
-    const fs::path made = folder.path() / "twin";
+    const fs::path made =
+        options.keep.empty() ? folder.path() / "twin" : options.keep / std::to_string(number);
     try {
-      const TwinOfTable twin = options.reconstruct
-                                   ? ReconstructedTable(table, sources, *prior, seed, made)
-                                   : PerturbedTable(table, options.iou, seed, &rng, made);
-      const std::optional<Outcome> outcome = TryTable(table, twin, made, options, seed);
+      const twin::TableScene scene = twin::SampleTableScene(sources, scene_options, &rng);
+      const TransferTable table =
+          options.reconstruct
+              ? ReconstructedTable(scene, sources, *prior, seed, made, folder.path() / "true")
+              : PerturbedTable(scene, options.iou, seed, &rng, made);
+      const std::optional<Outcome> outcome = TryTable(table, made, options, seed);
       if (!outcome) continue;
       std::printf("%3d %-32s +- %.1f cm; in twins %2d, without %2d of %d; in the table %s, %s\n",
                   number, outcome->task.c_str(), 100.0 * outcome->position_error,

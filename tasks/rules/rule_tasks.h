@@ -18,7 +18,7 @@ struct RuleOptions {
   // The state in which all tasks start, with the robot and a placement for each object; none: each
   // task has a layout of its own. Tasks whose objects are out of reach, which need other joint
   // positions or objects in or on others, or whose goal is occupied are then dropped.
-  std::optional<InitialState> layout;
+  std::optional<InitialState> layout = std::nullopt;
 
   bool IsValid(std::string* error) const;
 };

@@ -36,8 +36,8 @@ TEST(MakeTwinTasks, StartsEveryTaskInTheTwinsLayout) {
     ASSERT_EQ(start.placements.size(), record.objects.size()) << task.name;
     for (size_t k = 0; k < record.objects.size(); ++k) {
       EXPECT_EQ(start.placements[k].asset, record.objects[k].name);
-      EXPECT_TRUE(start.placements[k].world_from_asset.matrix() ==
-                  record.objects[k].world_from_object.matrix())
+      EXPECT_TRUE(
+          start.placements[k].world_from_asset.isApprox(record.objects[k].world_from_object, 1e-12))
           << task.name;
     }
     EXPECT_EQ(start.world_from_robot.translation().z(), 0.0);
