@@ -11,7 +11,7 @@ std::optional<Eigen::Vector3d> RobotBaseFlag::base() const {
 
 CLI::Option* AddRobotBase(CLI::App* command, RobotBaseFlag* robot) {
   return command
-      ->add_option("--robot", robot->numbers,
+      ->add_option("--base", robot->numbers,
                    "Where the robot's base stands on the twin's table: x, y (m, the camera is "
                    "above 0,0 and looks towards +y) and yaw (degrees), with commas")
       ->delimiter(',')

@@ -9,7 +9,7 @@
 
 namespace simwright::cli {
 
-// The value of --robot: x, y (m, the twin's frame) and yaw (degrees).
+// The value of --base: x, y (m, the twin's frame) and yaw (degrees).
 struct RobotBaseFlag {
   std::vector<double> numbers;
 
@@ -17,7 +17,7 @@ struct RobotBaseFlag {
   std::optional<Eigen::Vector3d> base() const;
 };
 
-// Add the flags of commands that work in a twin: --robot, --sigmas and --no-randomization. The
+// Add the flags of commands that work in a twin: --base, --sigmas and --no-randomization. The
 // initial value of `sigmas` is its default; the variables must outlive `command`.
 CLI::Option* AddRobotBase(CLI::App* command, RobotBaseFlag* robot);
 CLI::Option* AddSigmas(CLI::App* command, double* sigmas);

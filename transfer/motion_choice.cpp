@@ -40,7 +40,7 @@ MotionChoice ExportChosenMotion(const MotionChoiceRequest& request, core::Progre
 std::string MotionChoiceTable(const MotionChoice& choice) {
   char text[320];
   std::snprintf(text, sizeof text,
-                "%d of %d episodes give a motion that succeeds in the twin itself\n"
+                "%d of %d episodes give motions that succeed in the twin itself\n"
                 "the chosen one succeeds in %d of %d perturbed twins, the first in %d; it takes "
                 "%.1f s\n",
                 choice.recorded, choice.episodes, choice.rate.successes, choice.rate.worlds,

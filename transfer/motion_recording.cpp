@@ -1,5 +1,6 @@
 #include "transfer/motion_recording.h"
 
+#include <iterator>
 #include <utility>
 
 #include "core/error.h"
@@ -46,40 +47,50 @@ MotionRecorder::MotionRecorder(const TransferTask& task, const std::vector<rl::P
       described_links_(LinksOf(described_, policies)),
       displaced_links_(LinksOf(displaced_, policies)) {}
 
-std::optional<TransferMotion> MotionRecorder::Record(std::uint64_t seed,
-                                                     std::uint64_t episode) const {
+std::optional<TransferMotion> MotionRecorder::MotionAt(
+    double pace, const workflows::ChainRecording& recording,
+    const std::vector<workflows::RunSkill>& skills, std::uint64_t seed) const {
+  robot::RetimingOptions options;
+  options.max_speed_up = pace;
+  TransferMotion motion;
+  try {
+    workflows::SkillMotion made =
+        workflows::MotionOf(recording, *skills.front().evaluated, options);
+    workflows::SkillMetadata metadata = workflows::MetadataOf(task_.run(), skills, recording, seed);
+    metadata.times = made.subtasks;
+    motion.trajectory = std::move(made.retimed.trajectory);
+    motion.trajectory.metadata = workflows::MetadataLines(metadata);
+    motion.times = metadata.times;
+    motion.start = metadata.start;
+    motion.where = "motion " + std::to_string(recording.episode);
+  } catch (const core::Error&) {  // the retimer found no motion at this pace
+    return std::nullopt;
+  }
+  if (!task_.Replays(task_.described(), motion)) return std::nullopt;
+  return motion;
+}
+
+std::vector<TransferMotion> MotionRecorder::Record(std::uint64_t seed,
+                                                   std::uint64_t episode) const {
   const bool displaced = episode % 2 == 1;
   const workflows::ChainRecording recording =
       workflows::RecordEpisode(displaced ? displaced_links_ : described_links_, seed, episode);
-  if (!recording.success) return std::nullopt;
+  std::vector<TransferMotion> motions;
+  if (!recording.success) return motions;
   const std::vector<workflows::RunSkill>& skills = displaced ? displaced_ : described_;
   for (const double pace : kPaces) {
-    robot::RetimingOptions options;
-    options.max_speed_up = pace;
-    try {
-      workflows::SkillMotion made =
-          workflows::MotionOf(recording, *skills.front().evaluated, options);
-      workflows::SkillMetadata metadata =
-          workflows::MetadataOf(task_.run(), skills, recording, seed);
-      metadata.times = made.subtasks;
-      TransferMotion motion;
-      motion.trajectory = std::move(made.retimed.trajectory);
-      motion.trajectory.metadata = workflows::MetadataLines(metadata);
-      motion.times = metadata.times;
-      motion.start = metadata.start;
-      motion.where = "motion " + std::to_string(episode);
-      if (task_.Replays(task_.described(), motion)) return motion;
-    } catch (const core::Error&) {  // no motion within the limits has this pace
-      continue;
-    }
+    const bool recorded = pace == kPaces[std::size(kPaces) - 1];
+    if (!motions.empty() && !recorded) continue;
+    auto motion = MotionAt(pace, recording, skills, seed);
+    if (motion) motions.push_back(std::move(*motion));
   }
-  return std::nullopt;
+  return motions;
 }
 
 ChosenMotion ChooseMotion(const MotionRecorder& recorder, const TransferTask& task,
                           const PerturbedTwin& twin, int episodes, int worlds, std::uint64_t seed,
                           core::Progress* progress) {
-  std::vector<std::optional<TransferMotion>> recorded(static_cast<size_t>(episodes));
+  std::vector<std::vector<TransferMotion>> recorded(static_cast<size_t>(episodes));
   progress->Stage("record motions", episodes);
   core::ParallelFor(episodes, [&](int i) {
     core::CheckCancelled();
@@ -88,27 +99,27 @@ ChosenMotion ChooseMotion(const MotionRecorder& recorder, const TransferTask& ta
   });
   ChosenMotion chosen;
   chosen.episodes = episodes;
-  for (const auto& motion : recorded) chosen.recorded += motion.has_value();
+  for (const auto& motions : recorded) chosen.recorded += !motions.empty();
   progress->Stage("try motions in perturbed twins", chosen.recorded);
   bool first_described = false;
   for (size_t i = 0; i < recorded.size(); ++i) {
-    const std::optional<TransferMotion>& motion = recorded[i];
-    if (!motion) continue;
-    const TransferRate rate = RateAt(
-        [&](double scale, std::uint64_t index) {
-          return task.Replays(twin.World(scale, seed, index), *motion);
-        },
-        1.0, worlds);
-    progress->Advance();
-    const bool described = i % 2 == 0;
-    if (chosen.first.worlds == 0 || (described && !first_described)) {
-      chosen.first = rate;
-      chosen.first_motion = *motion;
-      first_described = described;
+    for (const TransferMotion& motion : recorded[i]) {
+      const TransferRate rate = RateAt(
+          [&](double scale, std::uint64_t index) {
+            return task.Replays(twin.World(scale, seed, index), motion);
+          },
+          1.0, worlds);
+      const bool described = i % 2 == 0;
+      if (chosen.first.worlds == 0 || (described && !first_described)) {
+        chosen.first = rate;
+        chosen.first_motion = motion;
+        first_described = described;
+      }
+      if (chosen.rate.worlds > 0 && rate.successes <= chosen.rate.successes) continue;
+      chosen.rate = rate;
+      chosen.motion = motion;
     }
-    if (chosen.rate.worlds > 0 && rate.successes <= chosen.rate.successes) continue;
-    chosen.rate = rate;
-    chosen.motion = *motion;
+    if (!recorded[i].empty()) progress->Advance();
   }
   if (chosen.recorded > 0) return chosen;
   throw core::Error("none of " + std::to_string(episodes) +

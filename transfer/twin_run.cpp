@@ -2,11 +2,13 @@
 
 #include <cstdio>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "tasks/task_file.h"
+#include "transfer/pick_choice.h"
 #include "transfer/twin_ranges.h"
 #include "transfer/twin_tasks.h"
 #include "workflows/skills/skill_rollout.h"
@@ -50,19 +52,19 @@ void OpenRun(const TwinRunRequest& request) {
   core::WriteFile(record, text);
 }
 
-// Returns the name of the task to train: the first that matches, by default of picking up.
+// Returns the name of the task to train: the one that matches, by default of picking up the object
+// that leaves the fingers most room.
 std::string ChosenTask(const TwinRunRequest& request, const tasks::TaskSet& set,
-                       const fs::path& file) {
+                       const workflows::TwinRecord& record, const fs::path& file) {
   if (set.tasks.empty()) {
     throw core::Error("the robot can do no task with the twin's objects", request.twin.string(),
-                      "simwright tasks --twin lists why; --robot X,Y,DEGREES moves the robot");
+                      "simwright tasks --twin lists why; --base X,Y,DEGREES moves the robot");
   }
   if (!request.task.empty()) {
     return workflows::ChooseTasks(set, {request.task}, file.string()).tasks.front().name;
   }
-  for (const tasks::Task& task : set.tasks) {
-    if (task.name.starts_with("pick_up_") && task.subtasks.size() == 1) return task.name;
-  }
+  const std::vector<std::string> picks = SurestPicks(set, record);
+  if (!picks.empty()) return picks.front();
   throw core::Error("no object of the twin can be picked up", request.twin.string(),
                     "choose another --task of " + file.string());
 }
@@ -95,13 +97,13 @@ double Train(const TwinRunRequest& request, const fs::path& tasks, const std::st
 }  // namespace
 
 TwinRunOutcome RunTwin(const TwinRunRequest& request, core::Progress* progress) {
-  workflows::ReadTwin(request.twin);  // before anything is written
+  const workflows::TwinRecord record = workflows::ReadTwin(request.twin);
   OpenRun(request);
   TwinRunOutcome outcome;
   outcome.folder = request.output;
   const fs::path tasks = request.output / "tasks.json", skill = request.output / "skill";
   const tasks::TaskSet set = TasksOf(request, tasks, progress, &outcome.findings);
-  outcome.task = ChosenTask(request, set, tasks);
+  outcome.task = ChosenTask(request, set, record, tasks);
   outcome.success = Train(request, tasks, outcome.task, progress);
   workflows::RolloutRequest rollout;
   rollout.run = skill;

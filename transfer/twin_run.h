@@ -17,7 +17,7 @@ namespace simwright::transfer {
 
 struct TwinRunRequest {
   std::filesystem::path twin;            // a folder written by `simwright twin`
-  std::string task;                      // a name or pattern; empty: pick up the first object
+  std::string task;                      // a name or pattern; empty: SurestPicks
   std::optional<Eigen::Vector3d> robot;  // TwinTasksRequest::robot
   double sigmas = 2.0;                   // PlacementRanges
   int worlds = 100;                      // TransferRequest

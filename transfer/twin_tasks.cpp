@@ -34,7 +34,7 @@ core::Finding PlacedRobot(const RobotPlacement& placement) {
           "",
           sentence,
           static_cast<double>(placement.count()),
-          "--robot X,Y,DEGREES states another place"};
+          "--base X,Y,DEGREES states another place"};
 }
 
 }  // namespace
@@ -59,8 +59,8 @@ workflows::TasksReport MakeTwinTasks(const TwinTasksRequest& request, core::Prog
                                        : PlaceRobot(model, state);
   if (placement.count() == 0) {
     throw core::Error("the robot reaches none of the twin's objects", request.twin.string(),
-                      request.robot ? "another --robot, or none: it is then placed"
-                                    : "--robot X,Y,DEGREES states where it stands");
+                      request.robot ? "another --base, or none: it is then placed"
+                                    : "--base X,Y,DEGREES states where it stands");
   }
   layout.world_from_robot = placement.world_from_robot;
   wanted.layout = layout;
@@ -74,7 +74,7 @@ workflows::TasksReport MakeTwinTasks(const TwinTasksRequest& request, core::Prog
     if (placement.reached[i]) continue;
     report.findings.push_back({"twin-out-of-reach", core::Severity::kWarning, model.objects[i].name,
                                "the robot does not reach the object from above", 0.0,
-                               "--robot X,Y,DEGREES states another place of its base"});
+                               "--base X,Y,DEGREES states another place of its base"});
   }
   return report;
 }

@@ -2,15 +2,19 @@
 // table itself: the motion that holds in most twins perturbed within the stated uncertainty, beside
 // one that was chosen in the twin alone.
 //   bench_twin_transfer [--count N] [--first N] [--reconstruct] [--train] [--episodes N]
-//                       [--worlds N] [--iou X] [--tuning] [--photos FOLDER] [--keep FOLDER]
+//                       [--worlds N] [--iou X] [--any-object] [--tuning] [--photos FOLDER] [--keep
+//                       FOLDER]
 //                       [--threads N]
 // --count: tables with an object that can be picked up (20), from number --first (0) on. The twin
 // is the table itself, displaced and scaled within its uncertainty, which is that of outlines with
 // an IoU of --iou (0.92); with --reconstruct it is rebuilt from the table's picture, with the true
 // masks and the known camera. Motions are those of the scripted expert; with --train, of policies
 // trained with the twin's ranges and without randomization, at most three minutes each.
-// --episodes: motions that are compared (8), in --worlds perturbed twins (16). Tables are held out,
-// with --tuning of training seeds. --keep: the twins stay below that folder.
+// The object is the one that leaves the fingers most room over its uncertainty; with --any-object,
+// the first that can be picked up. --episodes: whose motions are compared (8), in --worlds
+// perturbed twins (16). Tables are held out, with --tuning of training seeds. --keep: the twins
+// stay below that folder.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -25,6 +29,7 @@
 #include "rl/training.h"
 #include "skills/observation.h"
 #include "transfer/motion_recording.h"
+#include "transfer/pick_choice.h"
 #include "transfer/twin_ranges.h"
 #include "transfer/twin_tasks.h"
 #include "transfer_table.h"
@@ -44,7 +49,7 @@ constexpr double kTrainingMinutes = 3.0;
 struct Options {
   int count = 20, first = 0, episodes = 8, worlds = 16;
   double iou = 0.92;
-  bool reconstruct = false, train = false, tuning = false;
+  bool reconstruct = false, train = false, tuning = false, any_object = false;
   std::vector<fs::path> photos;
   fs::path keep;  // the twins stay there, by number; empty: nowhere
 };
@@ -53,6 +58,10 @@ Options Parse(int argc, char** argv) {
   Options options;
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
+    if (flag == "--any-object") {
+      options.any_object = true;
+      continue;
+    }
     if (flag == "--reconstruct" || flag == "--train" || flag == "--tuning") {
       (flag == "--train"    ? options.train
        : flag == "--tuning" ? options.tuning
@@ -92,15 +101,27 @@ struct Outcome {
   bool plain_succeeds = false, held_succeeds = false, acts = false;  // in the true table
 };
 
-// Returns the first pick-up task of an object that stands for a true one.
+// Returns the task of picking up an object that stands for a true one: the surest (SurestPicks), or
+// the first of the set.
 std::optional<tasks::Task> PickTask(const tasks::TaskSet& set, const TransferTable& table,
-                                    size_t* object) {
-  for (const tasks::Task& task : set.tasks) {
-    if (!task.name.starts_with("pick_up_") || task.subtasks.size() != 1) continue;
-    for (size_t k = 0; k < table.twin.objects.size(); ++k) {
-      if (table.twin.objects[k].name != task.assets.front() || !table.is_real[k]) continue;
-      *object = k;
-      return task;
+                                    bool first, size_t* object) {
+  std::vector<std::string> names = transfer::SurestPicks(set, table.twin);
+  if (first) {
+    const auto place = [&](const std::string& name) {
+      return std::find_if(set.tasks.begin(), set.tasks.end(),
+                          [&](const tasks::Task& task) { return task.name == name; });
+    };
+    std::sort(names.begin(), names.end(),
+              [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+  }
+  for (const std::string& name : names) {
+    for (const tasks::Task& task : set.tasks) {
+      if (task.name != name) continue;
+      for (size_t k = 0; k < table.twin.objects.size(); ++k) {
+        if (table.twin.objects[k].name != task.assets.front() || !table.is_real[k]) continue;
+        *object = k;
+        return task;
+      }
     }
   }
   return std::nullopt;
@@ -195,7 +216,7 @@ std::optional<Outcome> TryTable(const TransferTable& table, const fs::path& fold
   request.count = 50;
   const workflows::TasksReport made = transfer::MakeTwinTasks(request, &silent);
   size_t object = 0;
-  const std::optional<tasks::Task> pick = PickTask(made.set, table, &object);
+  const std::optional<tasks::Task> pick = PickTask(made.set, table, options.any_object, &object);
   if (!pick) return std::nullopt;
   Outcome outcome;
   outcome.task = pick->name;

@@ -31,7 +31,8 @@ class BlockTransfer : public testing::Test {
     rl::WritePolicy(ExpertPolicy(*task_), task_->skills().front().folder / rl::kPolicyFile);
     policies_ = PoliciesOf(*task_);
     const MotionRecorder recorder(*task_, policies_, PlacementRanges(Twin(), 2.0));
-    motion_ = recorder.Record(1, 0);
+    const std::vector<TransferMotion> motions = recorder.Record(1, 0);
+    if (!motions.empty()) motion_ = motions.front();
   }
   static void TearDownTestSuite() {
     delete task_;

@@ -7,6 +7,7 @@
 
 #include "block_twin.h"
 #include "core/error.h"
+#include "transfer/pick_choice.h"
 #include "transfer/twin_ranges.h"
 #include "transfer/twin_run.h"
 
@@ -117,6 +118,19 @@ TEST(RunTwin, RefusesATwinWithoutAGraspableObject) {
   request.output = folder.path() / "mine";
   request.force = true;
   EXPECT_NE(Refusal(run).find("no run on a twin"), std::string::npos) << Refusal(run);
+}
+
+TEST(SurestPicks, BeginWithTheObjectThatLeavesTheFingersMostRoom) {
+  const core::TemporaryFolder folder;
+  workflows::TwinRecord record = WriteBlockTwin(
+      folder.path(), {{-0.1, 0.7, 0.0, 0.06}, {0.1, 0.7, 0.0, 0.04}, {0.0, 0.9, 0.0, 0.05}});
+  record.objects[1].position_error = 0.02;
+  const tasks::TaskSet set = BlockTasks(folder.path()).set;
+  // The fingers open 8 cm.
+  EXPECT_NEAR(GripRoom(record.objects[0]), 0.01 / 0.004, 1e-9);
+  EXPECT_NEAR(GripRoom(record.objects[1]), 0.02 / 0.02, 1e-9);
+  EXPECT_EQ(SurestPicks(set, record),
+            (std::vector<std::string>{"pick_up_block_3", "pick_up_block_1", "pick_up_block_2"}));
 }
 
 TEST(PlacementRanges, AreMultiplesOfTheTwinsErrors) {

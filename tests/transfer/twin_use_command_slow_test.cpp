@@ -63,7 +63,7 @@ TEST_F(TwinUse, RefusesInOneLine) {
   ExpectRefused("tasks --twin " + Path("none") + output, 1, "the folder holds no twin");
   ExpectRefused("tasks" + output, 2, "--twin");
   ExpectRefused("tasks " + Path("twin/assets") + " --twin " + Path("twin") + output, 2, "twin");
-  ExpectRefused("tasks --twin " + Path("twin") + " --robot 9,9,0" + output, 1, "reaches none");
+  ExpectRefused("tasks --twin " + Path("twin") + " --base 9,9,0" + output, 1, "reaches none");
   ExpectRefused("run --twin " + Path("none") + output, 1, "the folder holds no twin");
   ExpectRefused("run --twin " + Path("twin") + " --category mug" + output, 2, "--category");
   ExpectRefused("run --twin " + Path("twin") + " --task dance" + output, 1, "no task 'dance'");
