@@ -2,9 +2,8 @@
 // table itself: the motion that holds in most twins perturbed within the stated uncertainty, beside
 // one that was chosen in the twin alone.
 //   bench_twin_transfer [--count N] [--first N] [--reconstruct] [--train] [--episodes N]
-//                       [--worlds N] [--objects N] [--iou X] [--any-object] [--tuning] [--photos
-//                       FOLDER] [--keep FOLDER]
-//                       [--threads N]
+//                       [--worlds N] [--objects N] [--any-object] [--iou X] [--tuning]
+//                       [--photos FOLDER] [--keep FOLDER] [--threads N]
 // --count: tables with an object that can be picked up (20), from number --first (0) on. The twin
 // is the table itself, displaced and scaled within its uncertainty, which is that of outlines with
 // an IoU of --iou (0.92); with --reconstruct it is rebuilt from the table's picture, with the true
