@@ -8,6 +8,7 @@
 #include "cli/findings_output.h"
 #include "cli/usage.h"
 #include "core/error.h"
+#include "transfer/motion_choice.h"
 #include "workflows/export/asset_export.h"
 #include "workflows/skills/image_recording.h"
 #include "workflows/skills/policy_export.h"
@@ -40,6 +41,7 @@ struct ExportFlags {
   workflows::ExportRequest motions;
   workflows::ImageRecordingRequest recording;
   bool stated_cameras = false;
+  transfer::MotionChoiceRequest choice;  // with --twin
 };
 
 bool Contains(const std::vector<std::string>& names, const std::string& name) {
@@ -55,7 +57,26 @@ bool HasImages(const ExportFlags& flags) {
          (flags.format == "robomimic" && flags.stated_cameras);
 }
 
+// Exports the motion that holds best in a twin.
+int ExportChosenMotion(const ExportFlags& flags, const CommonOptions& common) {
+  transfer::MotionChoiceRequest request = flags.choice;
+  request.run = flags.run;
+  request.output = flags.output;
+  request.seed = common.seed;
+  core::Progress progress(common.ProgressStyle());
+  const transfer::MotionChoice choice = transfer::ExportChosenMotion(request, &progress);
+  progress.Finish();
+  if (common.json) {
+    PrintJson(transfer::MotionChoiceJson(choice), {});
+    return 0;
+  }
+  if (!common.quiet) std::fputs(transfer::MotionChoiceTable(choice).c_str(), stdout);
+  std::printf("%s\n", choice.file.c_str());
+  return 0;
+}
+
 int ExportMotions(const ExportFlags& flags, const CommonOptions& common) {
+  if (!flags.choice.twin.empty()) return ExportChosenMotion(flags, common);
   workflows::ExportRequest request = flags.motions;
   request.run = flags.run;
   request.output = flags.output;
@@ -167,6 +188,12 @@ void RequireUsedOptions(const CLI::App& command, const ExportFlags& flags) {
   } else {
     refuse({"--joint-names", "--pace"}, "is not for demonstrations with images");
   }
+  const bool motion = !images && (flags.format == "ros2" || flags.format == "csv");
+  if (!motion) {
+    refuse({"--twin"}, "needs --format ros2 or csv");
+  } else if (!flags.choice.twin.empty()) {
+    refuse({"--joint-names", "--pace", "--episodes"}, "is not for the motion that --twin chooses");
+  }
   if (IsModel(flags)) {
     refuse({"--joint-names", "--pace", "--episodes", "--sampled-start"},
            "is not for --format usd and glb");
@@ -250,6 +277,7 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright export --skill open_drawer --format lerobot --episodes 50 -o drawers\n"
       "  simwright export tasks.json --task open_drawer_unit_1_drawer_1 --world --format mjcf -o "
       "w\n"
+      "  simwright export pick --format ros2 --twin twin -o pick.yaml\n"
       "  simwright export lib/mug_1 --format usd -o mug_usd\n"
       "  simwright export lib/mug_1 --format glb -o mug.glb\n"
       "Trajectories respect the robot's limits, at 1 kHz from rest to rest. `simwright replay`\n"
@@ -290,6 +318,11 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
                    "The output file, or a folder for a world or several files")
       ->required();
   AddMotionOptions(command, &flags->motions);
+  command
+      ->add_option("--twin", flags->choice.twin,
+                   "The twin of the run's task: of the motions of 16 episodes, the one that holds "
+                   "in most perturbed twins (docs/twin.md)")
+      ->default_str("none: the first successful episodes");
   AddRecordingOptions(command, flags);
   AddCommon(command, common);
   AddForce(command, common);

@@ -3,12 +3,45 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "transfer/transfer_check.h"
 #include "workflows/skills/skill_replay.h"
 
 namespace simwright::cli {
 namespace {
 
-int Replay(const workflows::ReplayRequest& request, const CommonOptions& common) {
+struct ReplayFlags {
+  workflows::ReplayRequest request;
+  std::filesystem::path twin;
+  int worlds = transfer::TransferRequest().worlds;
+};
+
+// Checks the transfer of each motion: the exit code is 1 if one succeeds in no perturbed twin.
+int CheckTransfer(const ReplayFlags& flags, const CommonOptions& common) {
+  core::Progress progress(common.ProgressStyle());
+  bool all = true;
+  for (const std::filesystem::path& motion : flags.request.files) {
+    transfer::TransferRequest request;
+    request.motion = motion;
+    request.twin = flags.twin;
+    request.run = flags.request.run;
+    request.worlds = flags.worlds;
+    request.seed = common.seed;
+    const transfer::TransferReport report = transfer::CheckTransfer(request, &progress);
+    progress.Finish();
+    all = all && report.replay.rate.successes > 0;
+    if (common.json) {
+      PrintJson(transfer::TransferJson(report), report.findings);
+      continue;
+    }
+    std::fputs(transfer::TransferTable(report).c_str(), stdout);
+    PrintFindings(report.findings, common);
+  }
+  return all ? 0 : 1;
+}
+
+int Replay(const ReplayFlags& flags, const CommonOptions& common) {
+  if (!flags.twin.empty()) return CheckTransfer(flags, common);
+  const workflows::ReplayRequest& request = flags.request;
   core::Progress progress(common.ProgressStyle());
   const workflows::ReplayReport report = workflows::Replay(request, &progress);
   progress.Finish();
@@ -23,21 +56,34 @@ int Replay(const workflows::ReplayRequest& request, const CommonOptions& common)
 }  // namespace
 
 void AddReplay(CLI::App* app, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<workflows::ReplayRequest>();
+  auto flags = std::make_shared<ReplayFlags>();
   CLI::App* command =
       app->add_subcommand("replay", "Replay exported motions and demonstrations in simulation");
   command->footer(
       "Examples:\n  simwright replay open.yaml\n  simwright replay open.hdf5 --run open\n"
-      "The exit code is 1 if none succeeds. See docs/export.md.");
+      "  simwright replay pick.yaml --twin twin --worlds 200\n"
+      "With --twin the motion, and the policy that it comes from, are tried in worlds that differ\n"
+      "from the twin as far as it is uncertain: the transfer check of docs/twin.md. The exit code "
+      "is 1\n"
+      "if none succeeds. See docs/export.md.");
   command
       ->add_option(
-          "files", request->files,
+          "files", flags->request.files,
           "Files written by `simwright export` (YAML, JSON, CSV, HDF5), or folders of them")
       ->required();
-  command->add_option("--run", request->run, "The folder written by `simwright train`")
+  command->add_option("--run", flags->request.run, "The folder written by `simwright train`")
       ->default_str("from the file");
+  CLI::Option* twin =
+      command
+          ->add_option("--twin", flags->twin,
+                       "Check the transfer: replay in this twin, perturbed within its uncertainty")
+          ->default_str("none");
+  command->add_option("--worlds", flags->worlds, "Perturbed twins of the transfer check")
+      ->check(CLI::Range(1, 100000))
+      ->needs(twin)
+      ->capture_default_str();
   AddCommon(command, common);
-  command->callback([request, common, run] { *run = [=] { return Replay(*request, *common); }; });
+  command->callback([flags, common, run] { *run = [=] { return Replay(*flags, *common); }; });
 }
 
 }  // namespace simwright::cli

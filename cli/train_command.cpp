@@ -5,14 +5,25 @@
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/training_options.h"
+#include "cli/twin_options.h"
 #include "core/error.h"
+#include "transfer/twin_ranges.h"
 #include "workflows/skills/skill_training.h"
 
 namespace simwright::cli {
 namespace {
 
-int TrainSkill(const workflows::TrainRequest& given, const CommonOptions& common) {
-  workflows::TrainRequest request = given;
+struct SkillTrainFlags {
+  workflows::TrainRequest request;
+  std::filesystem::path twin;
+  double sigmas = 2.0;
+};
+
+int TrainSkill(const SkillTrainFlags& flags, const CommonOptions& common) {
+  workflows::TrainRequest request = flags.request;
+  if (!flags.twin.empty()) {
+    request.placement_ranges = transfer::PlacementRanges(flags.twin, flags.sigmas);
+  }
   request.seed = common.seed;
   core::Progress progress(common.ProgressStyle());
   workflows::TrainReport report;
@@ -37,12 +48,14 @@ int TrainSkill(const workflows::TrainRequest& given, const CommonOptions& common
 }  // namespace
 
 void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
-  auto request = std::make_shared<workflows::TrainRequest>();
+  auto flags = std::make_shared<SkillTrainFlags>();
+  workflows::TrainRequest* request = &flags->request;
   CLI::App* command =
       app->add_subcommand("train", "Train a policy for each subtask of a task, in Bullet");
   command->footer(
       "Examples:\n  simwright train tasks.json --task pick_up_cup_1 -o pick\n"
       "  simwright train tasks.json --task 'pick_up_cup_*' -o pick_any\n"
+      "  simwright train tasks.json --task pick_up_mug_1 --twin twin -o pick_mug\n"
       "Subtasks are learnt in order, each mostly from the ends of the previous one. Ctrl-C or a "
       "crash\n"
       "loses at most half a minute: --resume continues. See docs/skills.md.");
@@ -60,7 +73,7 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
   command
       ->add_option_function<std::string>(
           "--action",
-          [request](const std::string& name) { request->action = skills::ActionSpaceOf(name); },
+          [flags](const std::string& name) { flags->request.action = skills::ActionSpaceOf(name); },
           "Action space: the tool's pose in the interaction target's frame (focus), as a "
           "correction\n"
           "of a scripted expert (guided), in the robot's frame (absolute), as a step of the tool\n"
@@ -70,7 +83,7 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
   command
       ->add_option_function<std::string>(
           "--grasps",
-          [request](const std::string& name) { request->proved_grasps = name == "proved"; },
+          [flags](const std::string& name) { flags->request.proved_grasps = name == "proved"; },
           "How objects and sliding parts are grasped: by the proved grasps of their grasps.json, "
           "where there\n"
           "is one (proved; see `simwright grasps`), or from above (above)")
@@ -79,6 +92,14 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_option("--seconds", request->episode_seconds, "Maximum duration of an episode, s")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();
+  CLI::Option* twin =
+      command
+          ->add_option("--twin", flags->twin,
+                       "The folder of the twin that the tasks are from: its uncertainty is the "
+                       "range in which objects are placed (docs/twin.md)")
+          ->default_str("none: up to 15 cm away, at any yaw");
+  AddSigmas(command, &flags->sigmas)->needs(twin);
+  AddNoRandomization(command, &request->randomized);
   AddTrainingOptions(command, &request->environments, &request->samples, &request->minutes,
                      &request->target, &request->episodes, &request->imitated_samples);
   command
@@ -90,8 +111,7 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_flag("--resume", request->resume, "Resume an interrupted run");
   AddCommon(command, common);
-  command->callback(
-      [request, common, run] { *run = [=] { return TrainSkill(*request, *common); }; });
+  command->callback([flags, common, run] { *run = [=] { return TrainSkill(*flags, *common); }; });
 }
 
 }  // namespace simwright::cli

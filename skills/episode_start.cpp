@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/distance.h"
 #include "manipulation/collision_checker.h"
 #include "manipulation/goal_placement.h"
 #include "manipulation/reach_plan.h"
@@ -18,6 +19,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kTries = 60;
+constexpr int kPlacedStep = 5;  // tries left out where single objects have ranges: all are alike
 constexpr double kFarthestStart = 0.4, kNearest = 0.2;  // m
 constexpr double kClearance = 0.02;     // m off opened parts, which the arm would push shut
 constexpr double kPerturbation = 0.03;  // rad, perturbation of an arm after another skill
@@ -54,6 +56,18 @@ int FirstUnclearTry(const SkillVariant& variant) {
   return variant.target->pushes ? 2 * kTries / 3 : kTries / 3;
 }
 
+// Returns the range of an object's placement to each side.
+PlacementRange RangeOf(const SkillVariant& variant, const SkillOptions& options, int object) {
+  const auto t = static_cast<size_t>(object);
+  if (!options.placement_ranges.empty()) {
+    const auto found = options.placement_ranges.find(variant.model.objects[t].name);
+    return found == options.placement_ranges.end() ? PlacementRange() : found->second;
+  }
+  return {options.position_range, variant.fixed[t]  ? options.furniture_yaw
+                                  : options.any_yaw ? M_PI
+                                                    : 0.0};
+}
+
 // Moves and turns every object; an object in or on another moves with it and turns in place.
 // `farther`: m away from the robot, for all of them.
 void Scatter(const SkillVariant& variant, const SkillOptions& options, double farther,
@@ -65,13 +79,12 @@ void Scatter(const SkillVariant& variant, const SkillOptions& options, double fa
       const int carrier = variant.carried_by[t];
       if ((carrier >= 0) != (pass == 1)) continue;
       Isometry3d& root = state->roots[t];
-      const bool fixed = variant.fixed[t];
-      const double yaw_range = fixed ? options.furniture_yaw : options.any_yaw ? M_PI : 0.0;
-      const double yaw = core::Uniform(rng, -yaw_range, yaw_range);
+      const PlacementRange range = RangeOf(variant, options, object);
+      const double yaw = core::Uniform(rng, -range.yaw, range.yaw);
       Vector3d shift = Vector3d::Zero();
       if (carrier < 0) {
-        const double range = options.position_range;
-        shift = {core::Uniform(rng, -range, range), core::Uniform(rng, -range, range), 0.0};
+        const double far = range.position;
+        shift = {core::Uniform(rng, -far, far), core::Uniform(rng, -far, far), 0.0};
         Vector3d away = root.translation() - robot;
         away.z() = 0.0;
         shift += farther * away.normalized();
@@ -84,22 +97,65 @@ void Scatter(const SkillVariant& variant, const SkillOptions& options, double fa
   }
 }
 
-bool Overlap(const SkillVariant& variant, const tasks::WorldState& state) {
+// Returns the convex parts of an object in the world frame.
+std::vector<geometry::ConvexShape> ShapesOf(const SkillVariant& variant,
+                                            const tasks::WorldState& state, int object) {
+  const auto t = static_cast<size_t>(object);
+  const std::vector<Isometry3d> poses =
+      tasks::LinkPosesOf(variant.model.objects[t], state.joints[t]);
+  std::vector<geometry::ConvexShape> shapes;
+  const std::vector<sim::RigidBody>& links = variant.bodies[t]->body().links;
+  for (size_t l = 0; l < links.size(); ++l) {
+    for (const core::TriangleMesh& part : links[l].parts) {
+      geometry::ConvexShape& shape = shapes.emplace_back();
+      for (const Vector3d& vertex : part.vertices) {
+        shape.vertices.push_back(state.roots[t] * poses[l] * vertex);
+      }
+    }
+  }
+  return shapes;
+}
+
+// Returns true if no convex parts of two objects touch.
+bool PartsAreApart(const SkillVariant& variant, const tasks::WorldState& state, int a, int b) {
+  const std::vector<geometry::ConvexShape> others = ShapesOf(variant, state, b);
+  for (const geometry::ConvexShape& one : ShapesOf(variant, state, a)) {
+    for (const geometry::ConvexShape& other : others) {
+      if (!geometry::AreApart(one, other, 0.0)) return false;
+    }
+  }
+  return true;
+}
+
+// Returns true if the AABBs of two objects are closer than kSpacing; or, for objects whose AABBs
+// are so as described and whose placement has a range of its own, if their parts touch.
+bool ObjectsOverlap(const SkillVariant& variant, const SkillOptions& options,
+                    const tasks::WorldState& state, int a, int b) {
+  const auto are_near = [&](const tasks::WorldState& in) {
+    return tasks::WorldAabb(variant.model, in, a)
+               .exteriorDistance(tasks::WorldAabb(variant.model, in, b)) < kSpacing;
+  };
+  if (!are_near(state)) return false;
+  if (options.placement_ranges.empty() || !are_near(variant.start)) return true;
+  return !PartsAreApart(variant, state, a, b) && PartsAreApart(variant, variant.start, a, b);
+}
+
+bool Overlap(const SkillVariant& variant, const SkillOptions& options,
+             const tasks::WorldState& state) {
   const Vector3d robot = variant.subtask.start.world_from_robot.translation();
-  std::vector<Eigen::AlignedBox3d> boxes;
   for (const int object : variant.placed) {
-    boxes.push_back(tasks::WorldAabb(variant.model, state, object));
-    if (Eigen::AlignedBox2d(boxes.back().min().head<2>(), boxes.back().max().head<2>())
+    const Eigen::AlignedBox3d box = tasks::WorldAabb(variant.model, state, object);
+    if (Eigen::AlignedBox2d(box.min().head<2>(), box.max().head<2>())
             .exteriorDistance(Eigen::Vector2d(robot.head<2>())) < kFromRobot) {
       return true;
     }
   }
-  for (size_t i = 0; i < boxes.size(); ++i) {
+  for (size_t i = 0; i < variant.placed.size(); ++i) {
     for (size_t j = 0; j < i; ++j) {
       const int a = variant.placed[i], b = variant.placed[j];
       if (variant.carried_by[static_cast<size_t>(a)] == b) continue;
       if (variant.carried_by[static_cast<size_t>(b)] == a) continue;
-      if (boxes[i].exteriorDistance(boxes[j]) < kSpacing) return true;
+      if (ObjectsOverlap(variant, options, state, a, b)) return true;
     }
   }
   return false;
@@ -257,10 +313,11 @@ void EpisodeStartPlaceObjects(const Skill& skill, core::Rng& rng, StartState* st
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
   const robot::JointVector home = skill.robot->home();
   std::optional<StartState> second_best;
-  for (int attempt = 0; attempt < kTries; ++attempt) {
+  const bool placed = !skill.options.placement_ranges.empty();
+  for (int attempt = 0; attempt < kTries; attempt += placed ? kPlacedStep : 1) {
     start->state = variant.start;
-    Scatter(variant, skill.options, DistanceOffset(attempt), rng, &start->state);
-    if (Overlap(variant, start->state)) continue;
+    Scatter(variant, skill.options, placed ? 0.0 : DistanceOffset(attempt), rng, &start->state);
+    if (Overlap(variant, skill.options, start->state)) continue;
     start->state.goal = manipulation::GoalIn(variant, start->state);
     if (!manipulation::IsArmCollisionFree(skill, variant, start->state, home)) continue;
     if (!variant.target) return;

@@ -207,6 +207,18 @@ bool ReadSameInputs(const SkillVariant& a, const SkillVariant& b) {
          a.destination.has_value() == b.destination.has_value();
 }
 
+// Adds a variant for each of `subtasks`.
+void AddVariants(const std::vector<SkillSubtask>& subtasks, Skill* skill) {
+  for (const SkillSubtask& subtask : subtasks) {
+    skill->variants.push_back(MakeVariant(subtask, *skill->robot, skill->options));
+    if (!ReadSameInputs(skill->variants.front(), skill->variants.back())) {
+      throw core::Error("its program reads other inputs than that of '" +
+                            subtasks.front().subtask.name + "': one policy cannot learn both",
+                        "subtask " + subtask.subtask.name);
+    }
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
@@ -230,17 +242,20 @@ std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
   skill->options = options;
   skill->standoff = options.standoff;
   skill->later_skills = std::move(later);
-  for (const SkillSubtask& subtask : subtasks) {
-    skill->variants.push_back(MakeVariant(subtask, robot, options));
-    if (!ReadSameInputs(skill->variants.front(), skill->variants.back())) {
-      throw core::Error("its program reads other inputs than that of '" +
-                            subtasks.front().subtask.name + "': one policy cannot learn both",
-                        "subtask " + subtask.subtask.name);
-    }
-  }
+  AddVariants(subtasks, skill.get());
   core::Log(core::LogLevel::kInfo, "skills", "prepared ", subtasks.front().subtask.name, " in ",
             subtasks.size(), " scenes");
   return skill;
+}
+
+std::shared_ptr<const Skill> InScenes(const Skill& skill,
+                                      const std::vector<SkillSubtask>& subtasks) {
+  if (subtasks.empty()) throw core::Error("a skill needs a subtask");
+  auto other = std::make_shared<Skill>(skill);
+  other->variants.clear();
+  other->later_skills.clear();
+  AddVariants(subtasks, other.get());
+  return other;
 }
 
 }  // namespace simwright::skills

@@ -61,4 +61,9 @@ std::shared_ptr<const Skill> MakeSkill(const robot::RobotModel& robot,
                                        const SkillOptions& options = {},
                                        std::vector<std::shared_ptr<const Skill>> later_skills = {});
 
+// Returns `skill`, without its later skills, in the scenes of `subtasks`; it shares the robot.
+// Throws as MakeSkill does.
+std::shared_ptr<const Skill> InScenes(const Skill& skill,
+                                      const std::vector<SkillSubtask>& subtasks);
+
 }  // namespace simwright::skills

@@ -60,6 +60,17 @@ SkillOptions SkillOptions::ForEvaluation() const {
   return options;
 }
 
+SkillOptions SkillOptions::WithoutRandomization() const {
+  SkillOptions options = *this;
+  options.position_range = options.furniture_yaw = options.configuration_range = 0.0;
+  options.any_yaw = false;
+  for (auto& [asset, range] : options.placement_ranges) range = {};
+  options.mass = options.friction = options.joint = {1.0, 1.0};
+  options.finger_friction.reset();
+  options.longest_delay = 0;
+  return options;
+}
+
 bool SkillOptions::IsValid(std::string* error) const {
   const auto fail = [&](const char* what) {
     *error = what;
@@ -85,6 +96,13 @@ bool SkillOptions::IsValid(std::string* error) const {
   }
   if (!(position_range >= 0.0) || !(furniture_yaw >= 0.0) || !(configuration_range >= 0.0)) {
     return fail("position_range, furniture_yaw and configuration_range must not be negative");
+  }
+  for (const auto& [asset, range] : placement_ranges) {
+    if (range.position >= 0.0 && range.yaw >= 0.0 && std::isfinite(range.position) &&
+        std::isfinite(range.yaw)) {
+      continue;
+    }
+    return fail("placement_ranges must not be negative");
   }
   if (!IsRange(mass) || !IsRange(friction) || !IsRange(joint)) {
     return fail("mass, friction and joint must be ranges of positive factors");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -36,6 +37,12 @@ bool FollowsPlan(ActionSpace space);
 // The range of a factor that is sampled uniformly in its logarithm.
 struct FactorRange {
   double low = 1.0, high = 1.0;
+};
+
+// The range of an object's placement about the described one, to each side.
+struct PlacementRange {
+  double position = 0.0;  // m, in x and y
+  double yaw = 0.0;       // rad
 };
 
 // The simulation and randomization options of a skill.
@@ -76,9 +83,13 @@ struct SkillOptions {
   double longest_lead = 0.08;
 
   // Randomization between episodes.
-  double position_range = 0.15;      // m, in x and y, to each side
-  double furniture_yaw = 0.3;        // rad, to each side, of fixed objects
-  bool any_yaw = true;               // of free objects
+  double position_range = 0.15;  // m, in x and y, to each side
+  double furniture_yaw = 0.3;    // rad, to each side, of fixed objects
+  bool any_yaw = true;           // of free objects
+  // The ranges of single objects, by asset, in place of the three above; those of the others are
+  // then zero, the objects keep their distance from the robot, and objects whose bounding boxes
+  // overlap as described may do so. Empty: the three above apply to all.
+  std::map<std::string, PlacementRange> placement_ranges;
   double configuration_range = 0.1;  // rad, of each of the arm's joints at the start
   FactorRange mass = {0.5, 2.0};
   FactorRange friction = {0.7, 1.3};  // of surfaces
@@ -103,6 +114,9 @@ struct SkillOptions {
   int decisions() const;  // of an episode
   // Returns the same options without easier start states.
   SkillOptions ForEvaluation() const;
+  // Returns the same options with every quantity as described: places of objects, masses,
+  // frictions (of the fingers: the robot's own), the arm at the start, no delay.
+  SkillOptions WithoutRandomization() const;
 
   bool IsValid(std::string* error) const;
 };

@@ -17,19 +17,6 @@ double YawOf(const Eigen::Isometry3d& pose) {
   return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
 }
 
-// The frame of a reconstruction: below the camera, which looks towards +y.
-Eigen::Isometry3d TwinFromScene(const core::Camera& camera) {
-  const Eigen::Vector3d axis = camera.world_from_camera.linear().col(2);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() =
-      Eigen::AngleAxisd(0.5 * M_PI - std::atan2(axis.y(), axis.x()), Eigen::Vector3d::UnitZ())
-          .toRotationMatrix();
-  Eigen::Vector3d foot = camera.position();
-  foot.z() = 0.0;
-  pose.translation() = -(pose.linear() * foot);
-  return pose;
-}
-
 // Returns the rigid motion in the plane from `from` to `to`, with weights that fall with distance.
 Eigen::Isometry2d Alignment(const std::vector<Eigen::Vector2d>& from,
                             const std::vector<Eigen::Vector2d>& to) {
@@ -62,6 +49,18 @@ Eigen::Isometry2d Alignment(const std::vector<Eigen::Vector2d>& from,
 }
 
 }  // namespace
+
+Eigen::Isometry3d TwinFromScene(const core::Camera& camera) {
+  const Eigen::Vector3d axis = camera.world_from_camera.linear().col(2);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() =
+      Eigen::AngleAxisd(0.5 * M_PI - std::atan2(axis.y(), axis.x()), Eigen::Vector3d::UnitZ())
+          .toRotationMatrix();
+  Eigen::Vector3d foot = camera.position();
+  foot.z() = 0.0;
+  pose.translation() = -(pose.linear() * foot);
+  return pose;
+}
 
 std::vector<twin::Detection> TrueDetections(const twin::TablePicture& picture, int objects,
                                             std::vector<int>* indices) {

@@ -20,6 +20,10 @@ std::vector<twin::Detection> TrueDetections(const twin::TablePicture& picture, i
 std::vector<int> MatchedDetections(const std::vector<twin::Detection>& found,
                                    const std::vector<twin::Detection>& truth);
 
+// Returns the frame of a reconstruction in that of a scene: below the camera, which looks towards
+// +y.
+Eigen::Isometry3d TwinFromScene(const core::Camera& camera);
+
 // The errors of one object.
 struct ObjectErrors {
   int truth = 0;                                    // index in the scene

@@ -54,10 +54,81 @@ struct Outcome {
   std::string dropped;
 };
 
-Outcome BuildTask(const WorldModel& model, const TaskCandidate& candidate, std::uint64_t seed,
-                  std::uint64_t index) {
-  core::Rng rng = core::StreamRng(seed, index);
-  const std::optional<InitialState> start = PlanLayout(model, candidate.layout, rng);
+// Returns the reason why a candidate cannot start in the given layout; empty: it can.
+std::string LayoutObstacle(const WorldModel& model, const InitialState& layout,
+                           const TaskCandidate& candidate) {
+  if (!candidate.layout.supports.empty() || !candidate.layout.joints.empty()) {
+    return "not-in-layout";
+  }
+  const WorldState state = StateOf(model, layout);
+  for (const int object : candidate.layout.objects) {
+    if (model.objects[static_cast<std::size_t>(object)].articulated()) continue;
+    const Eigen::Vector3d middle = WorldAabb(model, state, object).center();
+    if (!IsPointReachable(layout.world_from_robot, middle, -Eigen::Vector3d::UnitZ())) {
+      return "out-of-reach";
+    }
+  }
+  for (const auto& [object, j] : candidate.layout.operated) {
+    const auto t = static_cast<std::size_t>(object);
+    const ArticulatedObject& known = model.objects[t];
+    const ObjectJoint& joint = known.joints[static_cast<std::size_t>(j)];
+    std::vector<double> positions = state.joints[t];
+    for (const double position : {joint.rest(), joint.joint_target()}) {
+      positions[static_cast<std::size_t>(j)] = position;
+      const auto link = static_cast<std::size_t>(joint.grasp_link);
+      const Eigen::Vector3d grip =
+          state.roots[t] * LinkPosesOf(known, positions)[link] * known.links[link].middle;
+      if (!IsPointReachable(layout.world_from_robot, grip)) return "out-of-reach";
+    }
+  }
+  return "";
+}
+
+// Returns true if an object that is put down or pushed to the goal of `step` would meet another.
+bool IsGoalOccupied(const WorldModel& model, const WorldState& state, const Step& step) {
+  const bool on_floor = step.goal && (step.action.kind == ActionKind::kPlace ||
+                                      step.action.kind == ActionKind::kPush);
+  if (!on_floor) return false;
+  Eigen::AlignedBox3d box = WorldAabb(model, state, step.action.object);
+  const Eigen::Vector3d shift = *step.goal - LinkPosition(model, state, step.action.object, 0);
+  box.translate(Eigen::Vector3d(shift.x(), shift.y(), 0.0));
+  for (int other = 0; other < static_cast<int>(model.objects.size()); ++other) {
+    if (other == step.action.object) continue;
+    const Eigen::AlignedBox3d there = WorldAabb(model, state, other);
+    if (Eigen::AlignedBox2d(box.min().head<2>(), box.max().head<2>())
+            .intersects(Eigen::AlignedBox2d(there.min().head<2>(), there.max().head<2>()))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Returns the assets of a task: those of its candidate, then, in a given layout, all others that
+// stand there.
+std::vector<std::string> AssetsOf(const WorldModel& model, const TaskCandidate& candidate,
+                                  const InitialState& start) {
+  std::vector<std::string> names;
+  for (const int object : candidate.layout.objects) {
+    names.push_back(model.objects[static_cast<std::size_t>(object)].name);
+  }
+  for (const AssetPlacement& placement : start.placements) {
+    if (std::find(names.begin(), names.end(), placement.asset) == names.end()) {
+      names.push_back(placement.asset);
+    }
+  }
+  return names;
+}
+
+Outcome BuildTask(const WorldModel& model, const TaskCandidate& candidate,
+                  const RuleOptions& options, std::uint64_t index) {
+  core::Rng rng = core::StreamRng(options.seed, index);
+  std::optional<InitialState> start = options.layout;
+  if (start) {
+    const std::string obstacle = LayoutObstacle(model, *start, candidate);
+    if (!obstacle.empty()) return {std::nullopt, obstacle};
+  } else {
+    start = PlanLayout(model, candidate.layout, rng);
+  }
   if (!start) return {std::nullopt, "no-layout"};
   WorldState state = StateOf(model, *start);
   PredicateSet predicates = InitialPredicates(model, candidate, state);
@@ -66,14 +137,15 @@ Outcome BuildTask(const WorldModel& model, const TaskCandidate& candidate, std::
   if (plan.empty()) return {std::nullopt, "no-plan"};
   Task task;
   task.source = "rules";
-  for (int object : candidate.layout.objects) {
-    task.assets.push_back(model.objects[static_cast<std::size_t>(object)].name);
-  }
+  task.assets = AssetsOf(model, candidate, *start);
   SubtaskVerifier verifier(model);
   InitialState now = *start;
   std::set<std::string> names;  // repeated steps are numbered
   for (const Operator& one : plan) {
-    const Step step = MakeStep(model, state, one);
+    const Step step = MakeStep(model, state, one, start->world_from_robot);
+    if (options.layout && IsGoalOccupied(model, state, step)) {
+      return {std::nullopt, "goal-occupied"};
+    }
     Subtask subtask;
     subtask.name = UniqueName(step.name, &names);
     subtask.description = step.description;
@@ -164,7 +236,7 @@ RuleTasks Generate(const WorldModel& model, const RuleOptions& options, core::Pr
     core::ParallelFor(batch, [&](int i) {
       const std::size_t index = first + static_cast<std::size_t>(i);
       outcomes[static_cast<std::size_t>(i)] =
-          BuildTask(model, candidates[index], options.seed, index + 1);
+          BuildTask(model, candidates[index], options, index + 1);
     });
     for (Outcome& one : outcomes) {
       if (static_cast<int>(result.tasks.size()) == wanted) return result;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace simwright::tasks {
 struct RuleOptions {
   int count = 0;  // number of tasks; 0: five per object, which covers every kind at least once
   std::uint64_t seed = 1;
+  // The state in which all tasks start, with the robot and a placement for each object; none: each
+  // task has a layout of its own. Tasks whose objects are out of reach, which need other joint
+  // positions or objects in or on others, or whose goal is occupied are then dropped.
+  std::optional<InitialState> layout = std::nullopt;
 
   bool IsValid(std::string* error) const;
 };
@@ -21,8 +26,8 @@ struct RuleOptions {
 struct RuleTasks {
   std::vector<Task> tasks;  // tasks whose subtasks are all verified without a finding
   int tried = 0;            // candidates tried until there were enough tasks
-  // The reasons for which candidates were dropped (finding codes, "no-plan", "no-layout") and their
-  // counts.
+  // The reasons for which candidates were dropped (finding codes, "no-plan", "no-layout"; with a
+  // given layout "not-in-layout", "out-of-reach", "goal-occupied") and their counts.
   std::map<std::string, int> dropped;
   // "no-task": a warning, with the reason, for each object that no task uses.
   core::Findings findings;

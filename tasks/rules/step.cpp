@@ -171,22 +171,31 @@ Step PickStep(const WorldModel& model, const WorldState& state, const Operator& 
   return step;
 }
 
-// Returns a position on the floor beside the object, on the side nearer to the centre.
-Eigen::Vector3d BesideOf(const WorldModel& model, const WorldState& state, int object) {
+// Returns `point` moved by kSide along the robot's y axis, towards its x axis.
+Eigen::Vector3d MovedAside(const Eigen::Vector3d& point,
+                           const Eigen::Isometry3d& world_from_robot) {
+  const Eigen::Vector3d left = world_from_robot.linear().col(1);
+  const double aside = left.dot(point - world_from_robot.translation());
+  return point + (aside > 0.0 ? -kSide : kSide) * left;
+}
+
+// Returns a position on the floor beside the object, on the side nearer to the robot's x axis.
+Eigen::Vector3d BesideOf(const WorldModel& model, const WorldState& state, int object,
+                         const Eigen::Isometry3d& world_from_robot) {
   const ArticulatedObject& known = model.objects[static_cast<std::size_t>(object)];
-  Eigen::Vector3d target = LinkPosition(model, state, object, 0);
-  target.y() += target.y() > 0.0 ? -kSide : kSide;
+  Eigen::Vector3d target = MovedAside(LinkPosition(model, state, object, 0), world_from_robot);
   target.z() = known.links[0].middle.z() - known.box.min().z();
   return target;
 }
 
-Step PutDownStep(const WorldModel& model, const WorldState& state, const Operator& one) {
+Step PutDownStep(const WorldModel& model, const WorldState& state, const Operator& one,
+                 const Eigen::Isometry3d& world_from_robot) {
   const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   const std::string name = Quoted(object.name);
   Step step;
   step.name = NameFrom("put_down_" + object.name);
   step.description = "Put the " + SpokenName(object) + " down at the goal.";
-  step.goal = BesideOf(model, state, one.object);
+  step.goal = BesideOf(model, state, one.object, world_from_robot);
   Program program("Bring the " + SpokenName(object) + " to the goal and let go of it.");
   program.Line("thing = env.get_position(" + name + ")")
       .Line("distance = torch.norm(env.get_goal_pose() - thing, dim=-1)")
@@ -319,13 +328,14 @@ Step PutIntoStep(const WorldModel& model, const WorldState& state, const Operato
   return step;
 }
 
-Step PushStep(const WorldModel& model, const WorldState& state, const Operator& one) {
+Step PushStep(const WorldModel& model, const WorldState& state, const Operator& one,
+              const Eigen::Isometry3d& world_from_robot) {
   const ArticulatedObject& object = model.objects[static_cast<std::size_t>(one.object)];
   Step step;
   step.name = NameFrom("push_" + object.name);
   step.description = "Push the " + SpokenName(object) + " along the floor to the goal.";
-  Eigen::Vector3d goal = LinkPosition(model, state, one.object, 0);
-  goal.y() += goal.y() > 0.0 ? -kSide : kSide;
+  const Eigen::Vector3d goal =
+      MovedAside(LinkPosition(model, state, one.object, 0), world_from_robot);
   step.goal = goal;
   Program program("Reach for the " + SpokenName(object) + " and push it to the goal.");
   program.Line("thing = env.get_position(" + Quoted(object.name) + ")");
@@ -383,7 +393,8 @@ std::string SpokenName(const ArticulatedObject& object) {
   return name;
 }
 
-Step MakeStep(const WorldModel& model, const WorldState& state, const Operator& one) {
+Step MakeStep(const WorldModel& model, const WorldState& state, const Operator& one,
+              const Eigen::Isometry3d& world_from_robot) {
   switch (one.verb) {
     case ActionType::kOpen:
     case ActionType::kClose:
@@ -395,9 +406,9 @@ Step MakeStep(const WorldModel& model, const WorldState& state, const Operator& 
     case ActionType::kPutInto:
       return PutIntoStep(model, state, one);
     case ActionType::kPutDown:
-      return PutDownStep(model, state, one);
+      return PutDownStep(model, state, one, world_from_robot);
     case ActionType::kPush:
-      return PushStep(model, state, one);
+      return PushStep(model, state, one, world_from_robot);
     default:
       return PourStep(model, state, one);
   }

@@ -19,9 +19,11 @@ struct Step {
   Action action;                        // the action of an ideal gripper
 };
 
-// Returns the step for operator `one` in `state`. The reward of every step is bounded, increases
+// Returns the step for operator `one` in `state`; objects are put down and pushed sideways as the
+// robot at `world_from_robot` sees it. The reward of every step is bounded, increases
 // monotonically up to success, and requires contact where an object is held.
-Step MakeStep(const WorldModel& model, const WorldState& state, const Operator& one);
+Step MakeStep(const WorldModel& model, const WorldState& state, const Operator& one,
+              const Eigen::Isometry3d& world_from_robot = Eigen::Isometry3d::Identity());
 
 // Returns the object's name as it appears in a sentence: its name with blanks ("red mug" for
 // red_mug).

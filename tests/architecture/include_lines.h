@@ -19,7 +19,7 @@ inline const std::map<std::string, int> kFloor = {
     {"scene", 6},        {"validation", 7}, {"skills", 8},      {"importers", 7},
     {"manipulation", 7}, {"workflows", 9},  {"steering", 7},    {"certificate", 8},
     {"viewer", 10},      {"cli", 11},       {"python", 11},     {"proposals", 4},
-    {"factory", 10}};
+    {"factory", 10},     {"transfer", 10}};
 
 // An include line of a module.
 struct Include {

@@ -20,7 +20,8 @@ const std::vector<std::string> kModules = {
     "scene",       "validation",  "importers",   "manipulation",
     "skills",      "workflows",   "cli",         "capture",
     "library_fit", "certificate", "viewer",      "asset_looks",
-    "python",      "proposals",   "twin",        "factory"};
+    "python",      "proposals",   "twin",        "factory",
+    "transfer"};
 
 struct Line {
   std::string place, text;

@@ -47,6 +47,10 @@ core::Json RunJson(const SkillRun& run) {
   if (run.options.finger_friction) {
     text["finger_friction"] = {run.options.finger_friction->low, run.options.finger_friction->high};
   }
+  for (const auto& [asset, range] : run.options.placement_ranges) {
+    text["placement_ranges"][asset] = {range.position, range.yaw};
+  }
+  if (!run.randomized) text["randomized"] = false;
   return text;
 }
 
@@ -55,6 +59,16 @@ std::optional<skills::FactorRange> FingerFrictionOf(const core::JsonField& text)
   if (!text.Has("finger_friction")) return std::nullopt;
   const std::vector<double> range = text["finger_friction"].Numbers(2);
   return skills::FactorRange{range[0], range[1]};
+}
+
+std::map<std::string, skills::PlacementRange> PlacementRangesOf(const core::JsonField& text) {
+  std::map<std::string, skills::PlacementRange> ranges;
+  if (!text.Has("placement_ranges")) return ranges;
+  for (const auto& [asset, field] : text["placement_ranges"].Members()) {
+    const std::vector<double> range = field.Numbers(2);
+    ranges[asset] = {range[0], range[1]};
+  }
+  return ranges;
 }
 
 // An asset of a task with its proved grasps.
@@ -190,6 +204,8 @@ SkillRun ReadRun(const fs::path& folder) {
   // Runs from before grasps were proved took objects from above.
   run.proved_grasps = text.Has("proved_grasps") && text["proved_grasps"].Flag();
   run.options.finger_friction = FingerFrictionOf(text);
+  run.options.placement_ranges = PlacementRangesOf(text);
+  run.randomized = text.FlagOr("randomized", true);
   run.set = tasks::ReadTaskFile(folder / kTasksFile);
   const std::vector<std::string> now = HashesOf(run);
   for (size_t i = 0; i < now.size(); ++i) {
@@ -239,6 +255,8 @@ std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun&
                       set.tasks.front().name, "choose a task with the same steps");
   }
   const robot::RobotModel& robot = RobotOf(run.robot);
+  const skills::SkillOptions options =
+      run.randomized ? run.options : run.options.WithoutRandomization();
   const std::map<std::string, TaskObject> objects =
       ReadTaskObjects(set, run.proved_grasps ? &robot : nullptr, findings);
   std::vector<RunSkill> skills(named.size());
@@ -259,8 +277,8 @@ std::vector<RunSkill> PrepareSkillsOn(const tasks::TaskSet& set, const SkillRun&
     skill.name = named[k].name;
     skill.folder = SkillFolder(run, static_cast<int>(k) + 1, skill.name);
     const auto followers = k == 0 ? later : std::vector<std::shared_ptr<const skills::Skill>>();
-    skill.skill = skills::MakeSkill(robot, subtasks, run.options, followers);
-    skill.evaluated = skills::MakeSkill(robot, subtasks, run.options.ForEvaluation(), followers);
+    skill.skill = skills::MakeSkill(robot, subtasks, options, followers);
+    skill.evaluated = skills::MakeSkill(robot, subtasks, options.ForEvaluation(), followers);
     later.insert(later.begin(), skill.evaluated);
   }
   return skills;

@@ -26,6 +26,7 @@ struct SkillRun {
   // True if rigid objects and sliding parts are grasped by the proved grasps of their grasps.json,
   // where they have one (docs/grasps.md); else from above.
   bool proved_grasps = true;
+  bool randomized = true;  // false: options.WithoutRandomization() applies
   int environments = 64;
   std::uint64_t seed = 1;
 };

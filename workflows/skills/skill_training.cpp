@@ -49,6 +49,13 @@ SkillRun RunOf(const TrainRequest& request) {
   run.proved_grasps = request.proved_grasps && AnyAssetHasGrasps(run.set);
   run.options.episode_seconds = request.episode_seconds;
   run.options.finger_friction = request.finger_friction;
+  run.options.placement_ranges = request.placement_ranges;
+  run.randomized = request.randomized;
+  if (!run.randomized) {  // objects stay where they are, also where they are out of reach
+    for (const tasks::TaskAsset& asset : run.set.assets) {
+      run.options.placement_ranges.emplace(asset.name, skills::PlacementRange());
+    }
+  }
   run.environments = request.environments;
   run.seed = request.seed;
   return run;

@@ -24,6 +24,9 @@ struct TrainRequest {
   // The friction of the fingers' surfaces, sampled per episode: from worn plastic to the rubber
   // tips of the Panda's URDF.
   skills::FactorRange finger_friction = {0.8, 2.0};
+  // The ranges of the objects' placements (SkillOptions); empty: the default ones.
+  std::map<std::string, skills::PlacementRange> placement_ranges = {};
+  bool randomized = true;  // SkillRun::randomized
   int environments = 64;
   std::int64_t samples = 2'000'000;  // per subtask, at most
   double minutes = 30.0;             // per subtask, at most; 0: unlimited

@@ -128,14 +128,22 @@ std::vector<bool> ReplayTrajectory(const std::vector<RunSkill>& skills,
                                    const robot::JointTrajectory& trajectory,
                                    const SkillMetadata& metadata, const std::string& where) {
   const skills::Skill& first = *skills.front().evaluated;
+  return ReplayTrajectoryFrom(skills, trajectory, metadata.times,
+                              skills::ParseStart(metadata.start, first, where + ", note 'start'"),
+                              where);
+}
+
+std::vector<bool> ReplayTrajectoryFrom(const std::vector<RunSkill>& skills,
+                                       const robot::JointTrajectory& trajectory,
+                                       const std::vector<SubtaskTimes>& times,
+                                       skills::StartState start, const std::string& where) {
+  const skills::Skill& first = *skills.front().evaluated;
   const Commands commands(trajectory, *first.robot, where);
   // The last command is held after the end (MotionOf).
   const double held = 2.0 * first.options.hold_seconds;
-  if (trajectory.times.back() <
-      metadata.times.back().end - held - 2.0 / first.options.control_rate) {
+  if (trajectory.times.back() < times.back().end - held - 2.0 / first.options.control_rate) {
     throw core::Error("ends before its last subtask", where, "it is truncated: export it again");
   }
-  skills::StartState start = skills::ParseStart(metadata.start, first, where + ", note 'start'");
   std::vector<bool> successes;
   const double rate = first.options.control_rate;
   std::int64_t step = 0;
@@ -146,10 +154,10 @@ std::vector<bool> ReplayTrajectory(const std::vector<RunSkill>& skills,
         replay.Step(commands.At(static_cast<double>(step + 1) / rate));
       }
     };
-    drive_until(metadata.times[k].end);
+    drive_until(times[k].end);
     successes.push_back(replay.Succeeded());
     if (!successes.back()) break;
-    if (k + 1 < skills.size()) drive_until(metadata.times[k + 1].begin);
+    if (k + 1 < skills.size()) drive_until(times[k + 1].begin);
     start = replay.End();
   }
   return successes;

@@ -21,4 +21,10 @@ std::vector<bool> ReplayTrajectory(const std::vector<RunSkill>& skills,
                                    const robot::JointTrajectory& trajectory,
                                    const SkillMetadata& metadata, const std::string& where);
 
+// Replays from `start`, a start of the first skill, instead; `times`: of the subtasks.
+std::vector<bool> ReplayTrajectoryFrom(const std::vector<RunSkill>& skills,
+                                       const robot::JointTrajectory& trajectory,
+                                       const std::vector<SubtaskTimes>& times,
+                                       skills::StartState start, const std::string& where);
+
 }  // namespace simwright::workflows

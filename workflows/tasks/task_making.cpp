@@ -26,6 +26,7 @@ void MakeByRules(const TasksRequest& request, const tasks::WorldModel& scene,
   tasks::RuleOptions options;
   options.count = request.count;
   options.seed = request.seed;
+  options.layout = request.layout;
   tasks::RuleTasks made = tasks::GenerateTasksByRules(scene, options, progress);
   report->set.tasks = std::move(made.tasks);
   report->dropped = std::move(made.dropped);

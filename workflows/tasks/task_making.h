@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct TasksRequest {
   std::filesystem::path output;     // tasks.json; the page beside it ends in .html
   int count = 0;                    // 0: 5 per asset by rules, 8 by a language model
   std::uint64_t seed = 1;
-  bool force = false;               // replaces an existing output
-  llm::ChatModel* model = nullptr;  // null: generates by rules
+  bool force = false;                                        // replaces an existing output
+  llm::ChatModel* model = nullptr;                           // null: generates by rules
+  std::optional<tasks::InitialState> layout = std::nullopt;  // tasks::RuleOptions::layout
 };
 
 struct TasksReport {
