@@ -197,8 +197,13 @@ TransferTable ReconstructedTable(const twin::TableScene& scene,
   made.twin.photo = "table.png";
   made.twin.camera = rebuilt.camera.At(picture.color.width, picture.color.height);
   made.twin.log_scale_error = rebuilt.log_scale_error;
-  made.twin.objects = workflows::WriteTwinAssets(rebuilt, picture.color, found, seed,
-                                                 folder / "assets", &silent, &unread);
+  const std::vector<twin::TableAsset> assets;
+  const workflows::TwinPlacements placements;
+  std::map<std::string, int> names;
+  const workflows::TwinAssetSources made_of{rebuilt,    picture.color, found, assets,
+                                            placements, 0.0,           seed};
+  made.twin.objects =
+      workflows::WriteTwinAssets(made_of, folder / "assets", &names, &silent, &unread);
   workflows::SettleTwin(folder / "assets", &made.twin, &unread);
   core::WriteFile(folder / "twin.json", workflows::TwinJson(made.twin));
   core::WritePng(folder / "table.png", picture.color);
