@@ -126,7 +126,7 @@ void AddTwin(CLI::App* app, CommonOptions* common, Run* run) {
   command
       ->add_option("--detector", request->detector,
                    "Weights of simwright prior train --only detector, in place of --objects")
-      ->default_str("table_detector.pt beside the shipped weights; none is shipped yet");
+      ->default_str("the shipped table_detector.pt");
   command->add_option("--most-objects", request->most_objects, "The largest detections are rebuilt")
       ->check(Positive())
       ->capture_default_str();
