@@ -171,7 +171,6 @@ class GroupJoining {
 }  // namespace
 
 PixelGroups GroupPixels(const DetectedPixels& pixels) {
-  const std::vector<float> object = Smoothed(pixels.object, pixels.width, pixels.height);
   const std::vector<Peak> peaks =
       FindPeaks(Smoothed(pixels.centre, pixels.width, pixels.height), pixels.width, pixels.height);
   PixelGroups groups;
@@ -179,7 +178,7 @@ PixelGroups GroupPixels(const DetectedPixels& pixels) {
   for (int y = 0; y < pixels.height; ++y) {
     for (int x = 0; x < pixels.width; ++x) {
       const size_t at = static_cast<size_t>(y) * pixels.width + x;
-      if (object[at] < kInside) continue;
+      if (pixels.object[at] < kInside) continue;
       const Eigen::Vector2f to = Eigen::Vector2f(x, y) + pixels.offset[at];
       float nearest = kFarthest * kFarthest;
       for (size_t k = 0; k < peaks.size(); ++k) {

@@ -17,6 +17,8 @@ namespace {
 DetectorTrainingOptions SmallTraining() {
   DetectorTrainingOptions options;
   options.network.channels = {8, 16, 16, 24};
+  options.network.patch = 2;
+  options.part_share = 0.25;
   options.scenes.width = options.scenes.height = 64;
   options.scenes.least_objects = 1;
   options.scenes.most_objects = 3;
