@@ -3,6 +3,7 @@
 
 #include "cli/command.h"
 #include "cli/findings_output.h"
+#include "core/error.h"
 #include "transfer/transfer_check.h"
 #include "workflows/skills/skill_replay.h"
 
@@ -15,28 +16,28 @@ struct ReplayFlags {
   int worlds = transfer::TransferRequest().worlds;
 };
 
-// Checks the transfer of each motion: the exit code is 1 if one succeeds in no perturbed twin.
+// Checks the transfer of a motion: the exit code is 1 if it succeeds in no perturbed twin.
 int CheckTransfer(const ReplayFlags& flags, const CommonOptions& common) {
+  if (flags.request.files.size() != 1) {
+    throw core::Error("--twin checks one motion at a time",
+                      std::to_string(flags.request.files.size()) + " files", "name one file");
+  }
   core::Progress progress(common.ProgressStyle());
-  bool all = true;
-  for (const std::filesystem::path& motion : flags.request.files) {
-    transfer::TransferRequest request;
-    request.motion = motion;
-    request.twin = flags.twin;
-    request.run = flags.request.run;
-    request.worlds = flags.worlds;
-    request.seed = common.seed;
-    const transfer::TransferReport report = transfer::CheckTransfer(request, &progress);
-    progress.Finish();
-    all = all && report.replay.rate.successes > 0;
-    if (common.json) {
-      PrintJson(transfer::TransferJson(report), report.findings);
-      continue;
-    }
+  transfer::TransferRequest request;
+  request.motion = flags.request.files.front();
+  request.twin = flags.twin;
+  request.run = flags.request.run;
+  request.worlds = flags.worlds;
+  request.seed = common.seed;
+  const transfer::TransferReport report = transfer::CheckTransfer(request, &progress);
+  progress.Finish();
+  if (common.json) {
+    PrintJson(transfer::TransferJson(report), report.findings);
+  } else {
     std::fputs(transfer::TransferTable(report).c_str(), stdout);
     PrintFindings(report.findings, common);
   }
-  return all ? 0 : 1;
+  return report.replay.rate.successes > 0 ? 0 : 1;
 }
 
 int Replay(const ReplayFlags& flags, const CommonOptions& common) {
@@ -63,9 +64,9 @@ void AddReplay(CLI::App* app, CommonOptions* common, Run* run) {
       "Examples:\n  simwright replay open.yaml\n  simwright replay open.hdf5 --run open\n"
       "  simwright replay pick.yaml --twin twin --worlds 200\n"
       "With --twin the motion, and the policy that it comes from, are tried in worlds that differ\n"
-      "from the twin as far as it is uncertain: the transfer check of docs/twin.md. The exit code "
-      "is 1\n"
-      "if none succeeds. See docs/export.md.");
+      "from the twin as far as it is uncertain: the transfer check of docs/twin.md, of one motion "
+      "file.\n"
+      "The exit code is 1 if no replay succeeds. See docs/export.md.");
   command
       ->add_option(
           "files", flags->request.files,

@@ -69,6 +69,9 @@ void RequireRunSource(const CLI::App& command, const RunFlags& flags) {
     }
     return;
   }
+  if (command.count("--no-randomization") > 0) {
+    throw CLI::ValidationError("--no-randomization", "is for --twin");
+  }
   if (flags.request.photo.empty()) throw CLI::RequiredError("photo, or --twin");
   if (flags.request.category.empty()) throw CLI::RequiredError("--category");
 }

@@ -42,8 +42,7 @@ FloatImage ReadDepthImage(const std::filesystem::path& path, double unit) {
   }
   if (decoded.empty()) throw Error("the depth image is damaged", path.string(), kDepthRemedy);
   if (decoded.depth() != CV_16U) {
-    throw Error("the depth image has not 16 bits a pixel, so lengths are lost", path.string(),
-                kDepthRemedy);
+    throw Error("the depth image must have 16 bits a pixel, unsigned", path.string(), kDepthRemedy);
   }
   if (decoded.channels() != 1) {
     throw Error("the depth image is in colour", path.string(), kDepthRemedy);

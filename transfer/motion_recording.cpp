@@ -13,6 +13,8 @@ namespace {
 
 // The largest speed-ups over the recording, as `simwright export` tries them.
 constexpr double kPaces[] = {100.0, 2.0, 1.0};
+// The stream of the worlds in which motions are compared: others than those of the check.
+constexpr std::uint64_t kChoiceWorlds = 0x5e1ec7ull;
 
 std::vector<workflows::RunSkill> SkillsWithin(
     const TransferTask& task, const std::map<std::string, skills::PlacementRange>& ranges) {
@@ -106,7 +108,7 @@ ChosenMotion ChooseMotion(const MotionRecorder& recorder, const TransferTask& ta
     for (const TransferMotion& motion : recorded[i]) {
       const TransferRate rate = RateAt(
           [&](double scale, std::uint64_t index) {
-            return task.Replays(twin.World(scale, seed, index), motion);
+            return task.Replays(twin.World(scale, seed ^ kChoiceWorlds, index), motion);
           },
           1.0, worlds);
       const bool described = i % 2 == 0;
@@ -124,7 +126,7 @@ ChosenMotion ChooseMotion(const MotionRecorder& recorder, const TransferTask& ta
   if (chosen.recorded > 0) return chosen;
   throw core::Error("none of " + std::to_string(episodes) +
                         " episodes gives a motion that succeeds in the twin itself",
-                    task.run().folder.string(), "train longer, or try more --episodes");
+                    task.run().folder.string(), "train longer, or try another --seed");
 }
 
 }  // namespace simwright::transfer

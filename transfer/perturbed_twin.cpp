@@ -48,7 +48,10 @@ PerturbedTwin::PerturbedTwin(const workflows::TwinRecord& record, TransferWorld 
   for (const TransferObject& object : described_.objects) {
     const workflows::TwinObject& known = ObjectNamed(record, object, where);
     const double own = known.size_error * known.size_error - log_scale_error_ * log_scale_error_;
-    uncertainty_.push_back({known.position_error, known.yaw_error, std::sqrt(std::max(0.0, own))});
+    // An asset of the user has its own size, whatever the scale of the photo.
+    const bool metric = known.source == workflows::TwinSource::kRetrieved;
+    uncertainty_.push_back(
+        {known.position_error, known.yaw_error, std::sqrt(std::max(0.0, own)), metric});
     shapes_.push_back(PartsOf(object.model));
   }
   for (size_t i = 0; i < shapes_.size(); ++i) {
@@ -80,7 +83,7 @@ std::vector<PerturbedTwin::Draw> PerturbedTwin::Sample(double scale, double comm
     const double x = scale * error.position * core::Normal(rng);
     const double y = scale * error.position * core::Normal(rng);
     const double yaw = scale * error.yaw * core::Normal(rng);
-    const double size = common + scale * error.size * core::Normal(rng);
+    const double size = (error.metric ? 0.0 : common) + scale * error.size * core::Normal(rng);
     const Eigen::Isometry3d& pose = described_.objects[i].world_from_asset;
     Eigen::Vector3d middle = BoundsOf(Placed(shapes_[i], 1.0, pose)).center();
     middle.z() = 0.0;  // it stands on the table

@@ -38,6 +38,7 @@ class PerturbedTwin {
  private:
   struct Uncertainty {
     double position = 0.0, yaw = 0.0, size = 0.0;
+    bool metric = false;  // its size does not depend on the scale of the photo
   };
   struct Draw;
   bool IsValid(const std::vector<Draw>& draws) const;

@@ -55,7 +55,7 @@ void AddTransferFindings(const std::string& what, const TransferResult& result,
   char sentence[200];
   if (result.largest_scale < 0.0) {
     findings->push_back({"transfer-not-in-twin", core::Severity::kWarning, what,
-                         "it fails in the twin itself, with the masses and frictions of its assets",
+                         "it succeeds in less than 90 % of the worlds even without uncertainty",
                          result.rate.rate(), remedy});
   } else if (result.largest_scale < 1.0) {
     std::snprintf(sentence, sizeof sentence,
@@ -70,7 +70,7 @@ void AddTransferFindings(const std::string& what, const TransferResult& result,
 std::string Row(const std::string& what, const TransferResult& result) {
   char line[240], held[80];
   if (result.largest_scale < 0.0) {
-    std::snprintf(held, sizeof held, "fails in the twin itself");
+    std::snprintf(held, sizeof held, "less than 90 %% even without uncertainty");
   } else {
     std::snprintf(held, sizeof held, "90 %% hold up to %.2f times the uncertainty",
                   result.largest_scale);
@@ -147,12 +147,8 @@ TransferReport CheckTransfer(const TransferRequest& request, core::Progress* pro
         return task.Acts(twin.World(scale, request.seed, index), acting, rng);
       },
       "policy", request.worlds, progress);
-  char remedy[120];
-  std::snprintf(remedy, sizeof remedy,
-                "simwright train --twin --sigmas %.2g trains within the range that holds",
-                2.0 * std::max(0.0, report.policy->largest_scale));
   AddTransferFindings("policy", *report.policy,
-                      report.policy->largest_scale > 0.0 ? remedy : "train longer",
+                      "train longer with simwright train --twin, or make the twin more certain",
                       &report.findings);
   return report;
 }

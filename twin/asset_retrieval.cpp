@@ -197,6 +197,8 @@ std::pair<double, double> ScaleOfAssets(const std::vector<std::optional<PlacedAs
   if (logs.empty()) return {0.0, 0.0};
   std::sort(logs.begin(), logs.end());
   const double middle = 0.5 * (logs[(logs.size() - 1) / 2] + logs[logs.size() / 2]);
+  std::erase_if(logs, [&](double log) { return std::abs(log - middle) > kAgreeingScale; });
+  if (logs.empty()) return {0.0, 0.0};
   if (logs.size() == 1) return {middle, kOneAssetError};
   double off = 0.0;
   for (const double log : logs) off += std::min(std::abs(log - middle), kAgreeingScale);
@@ -204,9 +206,14 @@ std::pair<double, double> ScaleOfAssets(const std::vector<std::optional<PlacedAs
   return {middle, std::max(kLeastScaleError, 1.25 * off / count / std::sqrt(count))};
 }
 
+// Returns the error of a size (of the logarithm) whose part by the common scale changed.
+double WithScaleError(double size_error, double before, double after) {
+  return std::hypot(std::sqrt(std::max(0.0, size_error * size_error - before * before)), after);
+}
+
 void ScaleTable(double log_factor, double error, TableReconstruction* table,
                 std::vector<std::optional<PlacedAsset>>* found, core::Findings* findings) {
-  const double factor = std::exp(log_factor);
+  const double factor = std::exp(log_factor), before = table->log_scale_error;
   table->camera.height *= factor;
   table->log_scale_error = error;
   for (ReconstructedObject& object : table->objects) {
@@ -215,6 +222,7 @@ void ScaleTable(double log_factor, double error, TableReconstruction* table,
     object.fit.instance.size *= factor;
     object.fit.size_off.array() += log_factor;
     object.position_error *= factor;
+    object.size_error = WithScaleError(object.size_error, before, error);
   }
   for (std::optional<PlacedAsset>& placed : *found) {
     if (!placed) continue;
@@ -304,6 +312,7 @@ void RetrieveAssets(const core::Image& photo, const Detections& detections,
       const AssetSearch search = search_of(object);
       search.Evaluate(&*found[k]);
       search.Refine(false, &rng, &*found[k]);
+      if (!IsTaken(*found[k], object, options)) continue;
     }
     TakeAsset(*found[k], assets[static_cast<size_t>(found[k]->asset)],
               detections.objects[static_cast<size_t>(object.detection)], camera,

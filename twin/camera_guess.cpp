@@ -85,8 +85,8 @@ void GuessElevation(const std::vector<SeenObject>& objects, int width, int heigh
       information += object.weight * kind.probability / (error * error);
     }
   }
-  guess->elevation_error =
-      std::clamp(1.0 / std::sqrt(information + 1e-9), kLeastElevationError, before.elevation_error);
+  guess->elevation_error = std::min(
+      before.elevation_error, std::max(kLeastElevationError, 1.0 / std::sqrt(information + 1e-9)));
 }
 
 // Returns the weighted median.

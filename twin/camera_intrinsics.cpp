@@ -75,8 +75,9 @@ NumbersByName YamlNumbers(const std::string& text) {
     const bool named =
         colon != std::string::npos && std::isalpha(static_cast<unsigned char>(line[first])) != 0;
     if (!named) {
-      if (!member.empty())
-        AddNumbers(line.substr(line[first] == '-' ? first + 1 : first), &numbers[member]);
+      // A dash before a blank begins an entry of a list; before a digit it is a sign.
+      const bool entry = line[first] == '-' && first + 1 < line.size() && line[first + 1] == ' ';
+      if (!member.empty()) AddNumbers(line.substr(entry ? first + 1 : first), &numbers[member]);
       continue;
     }
     const std::string key = line.substr(first, colon - first);
@@ -168,7 +169,10 @@ Pinhole PinholeOf(const Calibration& calibration) {
 Eigen::Vector2d CalibratedSize(const Calibration& calibration, int width, int height) {
   const std::vector<double> w = calibration.Find({"width", "image_width"}, 1);
   const std::vector<double> h = calibration.Find({"height", "image_height"}, 1);
-  if (w.empty() || h.empty()) return {width, height};
+  if (w.empty() && h.empty()) return {width, height};
+  if (w.empty() || h.empty()) {
+    calibration.Fail("states only one of the width and height of the calibrated pictures");
+  }
   if (!(w[0] >= 1.0 && w[0] <= 1e5 && h[0] >= 1.0 && h[0] <= 1e5)) {
     calibration.Fail("the size of the calibrated pictures is not 1 to 100000 pixels");
   }

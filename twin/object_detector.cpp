@@ -16,11 +16,10 @@ namespace simwright::twin {
 namespace {
 
 constexpr int kInsideAlpha = 128;
-constexpr double kLeastConfidence = 0.45;
+constexpr double kLeastDetected = 0.45;
 // The sides of the pictures that the network sees, over those of its training: the coarse one shows
 // large objects whole, the fine one shows small objects.
 constexpr std::array kScales = {1.0, 1.5};
-constexpr double kSameObject = 0.3;               // of the smaller mask, which two detections share
 constexpr double kNetworkPixels = 256.0 * 192.0;  // of the pictures on which it was trained
 
 int NetworkSide(int side, double scale, int step) {
@@ -192,7 +191,7 @@ Detections ObjectDetector::Detect(const core::Image& photo) const {
   Detections found;
   found.objects = ObjectsOf(pixels, GroupPixels(pixels), photo);
   found.left_out = static_cast<int>(std::erase_if(
-      found.objects, [](const Detection& object) { return object.confidence < kLeastConfidence; }));
+      found.objects, [](const Detection& object) { return object.confidence < kLeastDetected; }));
   std::stable_sort(
       found.objects.begin(), found.objects.end(),
       [](const Detection& a, const Detection& b) { return a.box.volume() > b.box.volume(); });

@@ -178,6 +178,7 @@ struct View {
   const ReconstructedObject* of = nullptr;
   Eigen::Vector2d place{0, 0};
   double yaw = 0.0, log_size = 0.0;  // of the factor of the size
+  double log_scale_error = 0.0;      // of the view's reconstruction
 };
 
 View ViewOf(const std::vector<TableReconstruction>& views, int view, int object,
@@ -190,6 +191,7 @@ View ViewOf(const std::vector<TableReconstruction>& views, int view, int object,
   seen.place = std::exp(merged.log_scale) * (to_first * PlaceOf(*seen.of));
   seen.yaw = seen.of->fit.pose.yaw + to_first.turn;
   seen.log_size = to_first.log_scale + merged.log_scale;
+  seen.log_scale_error = views[static_cast<std::size_t>(view)].log_scale_error;
   return seen;
 }
 
@@ -213,7 +215,8 @@ const View& Representative(const std::vector<View>& views) {
   return *best;
 }
 
-MergedObject MergeViews(const std::vector<View>& views, core::Findings* findings) {
+MergedObject MergeViews(const std::vector<View>& views, double log_scale_error,
+                        core::Findings* findings) {
   const View& taken = Representative(views);
   MergedObject merged;
   merged.view = taken.view;
@@ -241,7 +244,9 @@ MergedObject MergeViews(const std::vector<View>& views, core::Findings* findings
   merged.yaw_error = 1.0 / std::sqrt(yaw_weights);
   merged.confidence = 1.0 - doubt;
   merged.size_factor = std::exp(taken.log_size);
-  merged.size_error = taken.of->size_error;
+  // The part of the error by the view's own scale becomes that by the common one.
+  const double own = Square(taken.of->size_error) - Square(taken.log_scale_error);
+  merged.size_error = std::hypot(std::sqrt(std::max(0.0, own)), log_scale_error);
   if (is_disputed) {
     std::string kinds;
     for (const View& view : views) {
@@ -307,6 +312,7 @@ MergedTables MergeTables(const std::vector<TableReconstruction>& views) {
       // An object that the first photo does not show may have been added by another one.
       auto known = groups.begin() + static_cast<std::ptrdiff_t>(views[0].objects.size());
       for (; known != groups.end(); ++known) {
+        if (known->back().view == static_cast<int>(v)) continue;
         const double error = std::hypot(view.of->position_error, known->front().of->position_error);
         if ((known->front().place - view.place).norm() < kMatchDistance + error) break;
       }
@@ -323,7 +329,7 @@ MergedTables MergeTables(const std::vector<TableReconstruction>& views) {
     }
   }
   for (const std::vector<View>& group : groups) {
-    merged.objects.push_back(MergeViews(group, &merged.findings));
+    merged.objects.push_back(MergeViews(group, merged.log_scale_error, &merged.findings));
   }
   return merged;
 }

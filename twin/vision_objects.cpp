@@ -74,7 +74,7 @@ bool IsSurroundings(const std::string& name) {
 
 // Returns the four numbers of an object's box; false if they are none.
 bool AnsweredBox(const core::Json& object, Eigen::Vector4d* numbers) {
-  for (const char* member : {"box", "bbox", "bbox_2d", "box_2d"}) {
+  for (const char* member : {"box", "bbox", "bbox_2d"}) {
     const core::Json* found = core::FindMember(object, member);
     if (found == nullptr) continue;
     if (!found->is_array() || found->size() != 4) return false;

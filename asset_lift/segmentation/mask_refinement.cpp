@@ -22,7 +22,7 @@ cv::Mat MatOf(const core::Image& image) {
           const_cast<std::uint8_t*>(image.pixels.data())};
 }
 
-cv::Mat Disc(double radius) {
+cv::Mat BandElement(double radius) {
   const int side = 2 * std::max(1, static_cast<int>(std::lround(radius))) + 1;
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side});
 }
@@ -31,8 +31,8 @@ cv::Mat Disc(double radius) {
 cv::Mat FirstLabels(const cv::Mat& mask, const cv::Mat& others) {
   const double side = std::sqrt(static_cast<double>(cv::countNonZero(mask)));
   cv::Mat wide, core;
-  cv::dilate(mask, wide, Disc(kBandOutside * side + 1.0));
-  cv::erode(mask, core, Disc(kBandInside * side), {-1, -1}, 1, cv::BORDER_CONSTANT,
+  cv::dilate(mask, wide, BandElement(kBandOutside * side + 1.0));
+  cv::erode(mask, core, BandElement(kBandInside * side), {-1, -1}, 1, cv::BORDER_CONSTANT,
             cv::Scalar(255));
   cv::Mat labels(mask.size(), CV_8UC1, cv::Scalar(cv::GC_BGD));
   labels.setTo(cv::GC_PR_BGD, wide);

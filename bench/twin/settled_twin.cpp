@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
+#include "core/files.h"
 #include "core/finding.h"
 #include "core/progress.h"
 #include "workflows/twin/twin_objects.h"
@@ -20,26 +19,6 @@
 namespace simwright::bench {
 namespace fs = std::filesystem;
 namespace {
-
-// A folder that is removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-      : path_(fs::temp_directory_path() / ("bench_twin_" + std::to_string(getpid()))) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 // Moves a fit as physics moved its object.
 void MovePose(const Eigen::Isometry3d& after_from_before, twin::TablePose* pose) {
@@ -53,7 +32,7 @@ void MovePose(const Eigen::Isometry3d& after_from_before, twin::TablePose* pose)
 
 SettledTwin SettleReconstruction(const core::Image& photo, const twin::Detections& detections,
                                  std::uint64_t seed, twin::TableReconstruction* table) {
-  const TemporaryFolder folder;
+  const core::TemporaryFolder folder;
   core::Progress silent;
   core::Findings findings;
   workflows::TwinRecord record;

@@ -189,6 +189,8 @@ TransferTable ReconstructedTable(const twin::TableScene& scene,
   found.camera.elevation_error = found.camera.roll_error = 0.0;
   found.camera.log_focal_error = found.camera.log_height_error = 0.0;
   TransferTable made;
+  core::Rng rng = core::StreamRng(seed, 2);
+  made.table.finger_friction = LogUniform(0.8, 2.0, &rng);
   if (found.objects.empty()) throw core::Error("the picture shows no object", "table");
   core::Progress silent;
   core::Findings unread;
@@ -228,9 +230,10 @@ TransferTable ReconstructedTable(const twin::TableScene& scene,
         made.is_real[i] = true;
       }
     }
-    made.table.objects.push_back(TrueObject(
+    transfer::TransferObject& real = made.table.objects.emplace_back(TrueObject(
         asset, 1.0, name, twin_from_scene * object.world_from_object * instance_from_asset,
         KindOf(object.instance).articulated != nullptr));
+    SampleSurface(&rng, &real);
   }
   return made;
 }

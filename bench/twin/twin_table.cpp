@@ -4,7 +4,7 @@
 //                    [--photos FOLDER] [--tuning] [--threads N] [--detections-only] [--settle]
 //                    [--pictures FOLDER]
 // --count: tables (60), from number --first (0) on. --camera unknown: elevation, focal length, roll
-// and height are guessed, by the detector or, without one, with errors of 4.6 degrees, 12 %, 1.1
+// and height are unknown, or, without a detector, guessed with errors of 4.6 degrees, 12 %, 1.1
 // degrees and 20 %; positions and yaws are then compared after a rigid alignment in the plane.
 // --detector: weights; without them the true masks are given. --tuning: instances of training
 // seeds, for choosing settings. --photos: what is behind and below the objects. --detections-only

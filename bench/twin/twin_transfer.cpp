@@ -43,6 +43,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kHeldOut = 1'000'000'000;
+constexpr int kMostTried = 10;  // tables, over those that are wanted
 constexpr double kSigmas = 2.0;
 constexpr double kTrainingMinutes = 3.0;
 
@@ -193,6 +194,7 @@ void TryTask(const TransferTable& table, const tasks::TaskSet& set, const fs::pa
           ? TrainedRun(tasks, outcome->task, folder, true, folder / (outcome->task + "_randomized"))
           : ExpertRun(set, outcome->task, folder / "run"));
   const std::vector<rl::Policy> policies = PoliciesFor(task, options.train);
+  if (policies.empty()) throw core::Error("the training left no policy", folder.string());
   core::Rng rng = core::StreamRng(seed, 1);
   outcome->acts = task.Acts(truth, {&policies.front()}, rng);
   const transfer::ChosenMotion chosen = Choose(task, policies, table, folder, options, seed);
@@ -278,7 +280,9 @@ void Run(const Options& options) {
   if (options.tuning) scene_options.seeds = kHeldOut - 1;
   std::vector<Outcome> outcomes;
   int tables = 0;
-  for (int number = options.first; static_cast<int>(outcomes.size()) < options.count; ++number) {
+  for (int number = options.first;
+       static_cast<int>(outcomes.size()) < options.count && tables < kMostTried * options.count;
+       ++number) {
     ++tables;
     core::Rng rng = core::StreamRng(options.tuning ? 80 : 79, static_cast<std::uint64_t>(number));
     const core::TemporaryFolder folder;

@@ -49,8 +49,12 @@ TwinDetections DetectObjects(const TwinRequest& request, const TwinView& view,
     throw core::Error("boxes are given, so the vision model has nothing to do",
                       view.objects.string(), "leave out --objects or --llm");
   }
-  if (!request.detector.empty() && !has_weights && !stated) {
+  if (!request.detector.empty() && !has_weights) {
     throw core::Error("no such weights of a detector", weights.string());
+  }
+  if (!request.detector.empty() && stated) {
+    throw core::Error("boxes are given, so the detector has nothing to do",
+                      request.detector.string(), "leave out --detector, or --objects and --llm");
   }
   TwinDetections detected;
   if (!view.objects.empty()) {
@@ -134,6 +138,16 @@ core::Findings KindFindings(const twin::TableReconstruction& table) {
   return findings;
 }
 
+// Adds what an uncertain focal length means for lengths that depth gives: across the picture they
+// are in proportion to its inverse.
+void AddLensError(double log_focal_error, twin::TableReconstruction* table) {
+  for (twin::ReconstructedObject& object : table->objects) {
+    object.position_error =
+        std::hypot(object.position_error, log_focal_error * std::abs(object.fit.pose.x));
+    object.size_error = std::hypot(object.size_error, log_focal_error);
+  }
+}
+
 // Rebuilds the detected objects, with the user's assets where they are found again.
 twin::TableReconstruction Reconstruct(const TwinRequest& request, const TwinPhoto& photo,
                                       const TwinDetections& detected,
@@ -148,6 +162,7 @@ twin::TableReconstruction Reconstruct(const TwinRequest& request, const TwinPhot
   const auto report = [findings](const core::Findings& more) {
     findings->insert(findings->end(), more.begin(), more.end());
   };
+  if (photo.plane && photo.log_focal_error > 0.0) AddLensError(photo.log_focal_error, &table);
   if (photo.plane) report(twin::CompareWithDepth(table, detected.found, photo.depth));
   if (!assets.empty()) {
     progress->Stage("assets of yours", static_cast<std::int64_t>(table.objects.size()));

@@ -76,8 +76,7 @@ TwinObject EntryOf(const twin::ReconstructedObject& object, const twin::Detectio
 // Copies an asset of the user.
 void CopyAsset(const twin::TableAsset& asset, const fs::path& folder, TwinObject* entry) {
   std::error_code fault;
-  fs::copy(asset.folder, folder, fs::copy_options::recursive | fs::copy_options::skip_symlinks,
-           fault);
+  fs::copy(fs::canonical(asset.folder), folder, fs::copy_options::recursive, fault);
   if (fault) throw core::Error("cannot be copied: " + fault.message(), asset.folder.string());
   entry->source = TwinSource::kRetrieved;
   entry->kind = asset.name;
