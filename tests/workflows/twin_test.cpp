@@ -185,7 +185,6 @@ TEST(MakeTwin, RebuildsAPhotoInMetres) {
   TwinRequest request;
   request.photo = folder.path() / "photo.png";
   request.objects = folder.path() / "objects.json";
-  request.detector = folder.path() / "none.pt";
   request.camera.fov = 2.0 * std::atan(0.5 / camera.focal) * 180.0 / M_PI;
   request.camera.elevation = camera.elevation * 180.0 / M_PI;
   request.camera.height = camera.height;
@@ -211,6 +210,10 @@ TEST(MakeTwin, RebuildsAPhotoInMetres) {
   ASSERT_EQ(source.scenes.size(), 1u);
   EXPECT_EQ(source.scenes[0].objects.size(), 2u);
   // The output is kept unless it is to be replaced.
+  EXPECT_THROW(MakeTwin(request, &progress), core::Error);
+  // A detector beside boxes has nothing to do.
+  request.output = folder.path() / "other";
+  request.detector = fs::path(SIMWRIGHT_SOURCE_DIR) / "models/table_detector.pt";
   EXPECT_THROW(MakeTwin(request, &progress), core::Error);
 }
 
