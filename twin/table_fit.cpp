@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
@@ -14,6 +15,7 @@
 namespace simwright::twin {
 namespace {
 
+using library_fit::FitAgreement;
 using library_fit::FitKinds;
 using library_fit::Instance;
 using library_fit::InstanceMesh;
@@ -31,6 +33,7 @@ constexpr double kChoiceWeight = 0.012;  // of the negative log probability of a
 constexpr double kSizeWeight = 0.03;     // of a deviation of a size
 constexpr double kKindWeight = 0.08;     // of the negative log probability of the kind
 constexpr double kLeastSizeError = 0.06;
+constexpr double kNoShape = 1e9;  // loss of sizes that no solid has
 constexpr std::uint64_t kProbedSeeds = 8;
 
 // Returns the value reflected into [0, 1].
@@ -47,6 +50,15 @@ double BinLogProbability(const std::vector<double>& bins, double share) {
 
 bool Opens(const Instance& instance) {
   return FitKinds()[static_cast<size_t>(instance.kind)].opening > 0.0;
+}
+
+// Returns the instance's mesh, or none for sizes with which its parts are too thin to be solids.
+std::optional<core::TexturedMesh> MeshIfAny(const Instance& instance) {
+  try {
+    return InstanceMesh(instance);
+  } catch (const core::Error&) {
+    return std::nullopt;
+  }
 }
 
 // The search for the instance of one kind, and its pose on the table.
@@ -69,10 +81,11 @@ class TableSearch {
   double Evaluate(TableFit* fit) const {
     core::Camera camera = crop_;
     camera.world_from_camera = fit->pose.WorldFromObject().inverse() * crop_.world_from_camera;
+    const std::optional<core::TexturedMesh> mesh = MeshIfAny(fit->instance);
     fit->agreement =
-        library_fit::CompareWithPhoto(InstanceMesh(fit->instance), camera, object_.target);
+        mesh ? library_fit::CompareWithPhoto(*mesh, camera, object_.target) : FitAgreement();
     fit->probability = prediction_.probability;
-    fit->shape_loss = fit->agreement.Loss() + Improbability(*fit, camera);
+    fit->shape_loss = mesh ? fit->agreement.Loss() + Improbability(*fit, camera) : kNoShape;
     for (int i = 0; i < 3; ++i) {
       const auto at = static_cast<size_t>(i);
       fit->size_off[i] = std::log(fit->instance.size[i]) - prediction_.numbers[at];
@@ -127,15 +140,16 @@ class TableSearch {
   void TryChoices(TableFit* fit) const {
     for (size_t i = 0; i < choices_; ++i) {
       const size_t bins = prediction_.choices[i].size();
-      const core::TexturedMesh base = InstanceMesh(fit->instance);
+      const std::optional<core::TexturedMesh> base = MeshIfAny(fit->instance);
+      if (!base) return;
       std::vector<TableFit> others;
       for (size_t bin = 0; bin < bins; ++bin) {
         if (prediction_.choices[i][bin] < 0.02) continue;
         TableFit other = *fit;
         other.instance.draws[i] = (static_cast<double>(bin) + 0.5) / static_cast<double>(bins);
-        const core::TexturedMesh mesh = InstanceMesh(other.instance);
-        if (mesh.mesh.vertices == base.mesh.vertices &&
-            mesh.triangle_material == base.triangle_material) {
+        const std::optional<core::TexturedMesh> mesh = MeshIfAny(other.instance);
+        if (!mesh || (mesh->mesh.vertices == base->mesh.vertices &&
+                      mesh->triangle_material == base->triangle_material)) {
           continue;  // A choice that changes nothing but colours needs no render.
         }
         others.push_back(other);
@@ -167,8 +181,9 @@ class TableSearch {
   }
 
   void PlaceByBox(TableFit* fit) const {
-    const ScaledPose placed =
-        PoseFromBox(InstanceMesh(fit->instance).mesh, fit->pose.yaw, camera_, object_.box);
+    const std::optional<core::TexturedMesh> mesh = MeshIfAny(fit->instance);
+    if (!mesh) return;
+    const ScaledPose placed = PoseFromBox(mesh->mesh, fit->pose.yaw, camera_, object_.box);
     fit->pose = placed.pose;
     fit->instance.size *= placed.scale;
   }
@@ -209,15 +224,16 @@ class TableSearch {
   }
 
   std::vector<int> ContinuousChoices(const TableFit& fit) const {
-    const core::TexturedMesh base = InstanceMesh(fit.instance);
+    const std::optional<core::TexturedMesh> base = MeshIfAny(fit.instance);
     std::vector<int> continuous;
+    if (!base) return continuous;
     for (size_t i = 0; i < choices_; ++i) {
       Instance other = fit.instance;
       other.draws[i] += other.draws[i] > 0.5 ? -kProbe : kProbe;
-      const core::TexturedMesh mesh = InstanceMesh(other);
+      const std::optional<core::TexturedMesh> mesh = MeshIfAny(other);
       // A choice of another number of parts is no continuous one.
-      if (mesh.mesh.vertices.size() == base.mesh.vertices.size() &&
-          mesh.mesh.vertices != base.mesh.vertices) {
+      if (mesh && mesh->mesh.vertices.size() == base->mesh.vertices.size() &&
+          mesh->mesh.vertices != base->mesh.vertices) {
         continuous.push_back(static_cast<int>(i));
       }
     }
