@@ -133,9 +133,8 @@ core::Finding ExamineWeights() {
   const auto miss = [&missing](const std::string& name) {
     missing += (missing.empty() ? "" : ", ") + name;
   };
-  for (const char* name :
-       {"shape_prior.pt", "view_prior.pt", "library_prior.pt", "table_detector.pt",
-        "scene_features.pt"}) {
+  for (const char* name : {"shape_prior.pt", "view_prior.pt", "library_prior.pt",
+                           "table_detector.pt", "scene_features.pt"}) {
     if (!fs::is_regular_file(models / name)) miss(name);
   }
   const int scenes = CountWeights(models / "scenes"), skills = CountWeights(models / "skills");
