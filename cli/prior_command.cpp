@@ -88,6 +88,7 @@ int TrainPriors(PriorFlags flags, const CommonOptions& common) {
   if (!flags.from.empty()) {
     flags.request.shape_options.start = workflows::ShapeWeights(flags.from);
     flags.request.view_options.start = workflows::ViewWeights(flags.from);
+    library.start = workflows::LibraryWeights(flags.from);
   }
   std::optional<core::FolderLock> lock;
   if (std::filesystem::exists(flags.request.output)) {
@@ -175,8 +176,8 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command
       ->add_option("--photos", flags->request.photos,
-                   "Photos, or folders of them, behind and below the objects of the detector's "
-                   "pictures")
+                   "Photos, or folders of them, behind and below the objects in the pictures of "
+                   "detector and library prior")
       ->default_str("patterns alone");
   command
       ->add_option("--library-pool", flags->request.library_options.pool,
@@ -214,6 +215,12 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->add_option("--library-exchange", flags->request.library_options.exchange,
                    "Pictures of the library prior that each step replaces by new ones")
       ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--table-share", flags->request.library_options.scene_share,
+                   "Share of the library prior's pictures that show an object on a table, among "
+                   "others")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--rate", flags->rate, "Learning rate")
       ->check(Positive())

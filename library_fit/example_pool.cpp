@@ -3,13 +3,14 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "library_fit/library_training.h"
 
 namespace simwright::library_fit {
 
-ExamplePool::ExamplePool(int size, std::uint64_t seed, const std::function<void()>& done)
-    : seed_(seed), examples_(static_cast<size_t>(size)) {
+ExamplePool::ExamplePool(const LibraryTrainingOptions& options, std::uint64_t seed,
+                         const std::function<void()>& done)
+    : options_(options), seed_(seed), examples_(static_cast<size_t>(options.pool)) {
   constexpr int kShares = 100;
+  const int size = options.pool;
   for (int share = 0; share < kShares; ++share) {
     const int first = size * share / kShares, last = size * (share + 1) / kShares;
     core::ParallelFor(last - first, [&](int i) {
@@ -22,6 +23,9 @@ ExamplePool::ExamplePool(int size, std::uint64_t seed, const std::function<void(
 
 PriorExample ExamplePool::Make(std::uint64_t number) const {
   core::Rng rng = core::StreamRng(seed_, number);
+  if (options_.scene_example && core::Uniform(rng) < options_.scene_share) {
+    return options_.scene_example(rng());
+  }
   const int kind = PriorExampleKind(&rng);
   return MakePriorExample(kind, 1 + static_cast<std::uint64_t>(core::UniformIndex(
                                         rng, static_cast<std::int64_t>(kHeldOutSeed) - 1)));

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "library_fit/library_training.h"
 #include "library_fit/prior_example.h"
 
 namespace simwright::library_fit {
@@ -12,9 +13,10 @@ namespace simwright::library_fit {
 // rendering one takes longer than a step of the network on it.
 class ExamplePool {
  public:
-  // Renders the first `size` pictures. Deterministic for a seed, regardless of the threads.
+  // Renders the first `options.pool` pictures. Deterministic for a seed, regardless of the threads.
   // `done` is called after each of some hundred shares of the work.
-  ExamplePool(int size, std::uint64_t seed, const std::function<void()>& done);
+  ExamplePool(const LibraryTrainingOptions& options, std::uint64_t seed,
+              const std::function<void()>& done);
 
   // Renders the next `count` pictures, without changing the pool; may run in another thread.
   std::vector<PriorExample> Render(int count) const;
@@ -27,6 +29,7 @@ class ExamplePool {
  private:
   PriorExample Make(std::uint64_t number) const;
 
+  const LibraryTrainingOptions& options_;
   std::uint64_t seed_;
   std::uint64_t made_ = 0;
   std::vector<PriorExample> examples_;

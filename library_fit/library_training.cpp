@@ -200,6 +200,7 @@ bool LibraryTrainingOptions::IsValid(std::string* error) const {
     return fail("the network needs four channel counts and a feature count, multiples of 8");
   }
   if (pool < 1 || exchange < 0 || exchange > pool) return fail("the pool is too small");
+  if (!(scene_share >= 0.0 && scene_share <= 1.0)) return fail("a share must be within 0 and 1");
   return true;
 }
 
@@ -216,12 +217,13 @@ asset_lift::PriorTrainingReport TrainLibraryNetwork(
   sizes.channels = options.channels;
   sizes.features = options.features;
   LibraryNetwork network(kinds, sizes), kept(kinds, sizes);
+  if (!options.start.empty()) nn::LoadCheckpoint(options.start, "library", network.get());
   network->to(device);
   nn::Trainer trainer(network.get(), options.trainer, weights.string() + ".state");
   const int first = trainer.first_step(), steps = options.trainer.steps;
   progress->Stage("rendering pictures", 100);
   // A resumed training uses new pictures.
-  ExamplePool pool(options.pool, options.seed + 1000003ull * static_cast<std::uint64_t>(first),
+  ExamplePool pool(options, options.seed + 1000003ull * static_cast<std::uint64_t>(first),
                    [&] { progress->Advance(); });
   progress->Stage("library prior", steps - first);
   LibraryMeans means(steps, report);

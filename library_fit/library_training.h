@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 
 namespace simwright::library_fit {
 
+struct PriorExample;
+
 struct LibraryTrainingOptions {
   nn::TrainerOptions trainer;
   int batch = 64;     // pictures per step
@@ -19,6 +22,11 @@ struct LibraryTrainingOptions {
   // The sizes of the network (library_network.h); the weights' file keeps them.
   std::vector<int> channels = {48, 96, 192, 256};
   int features = 512;
+  // Returns a picture of an instance among other objects; deterministic for its seed, and called
+  // from several threads. `scene_share` of the pictures come from it if it is set.
+  std::function<PriorExample(std::uint64_t)> scene_example;
+  double scene_share = 0.5;
+  std::filesystem::path start;  // weights from which the training starts; empty: random ones
   // Training seeds of instances lie in [1, kHeldOutSeed); 0 samples others.
   std::uint64_t seed = 1;
 

@@ -42,14 +42,10 @@ int PriorExampleKind(core::Rng* rng) {
                               : at - (kArticulatedWeight - 1) * articulated);
 }
 
-PriorExample MakePriorExample(int kind, std::uint64_t seed) {
-  const Instance instance = SampleInstance(kind, seed);
-  core::Rng rng = core::StreamRng(seed, 104729);
-  core::TexturedMesh mesh = InstanceMesh(instance);
-  if (core::Uniform(rng) < kRecolored) Recolor(&rng, &mesh);
+PriorExample LabelsOf(const Instance& instance, const FitView& view) {
   PriorExample example;
-  example.kind = kind;
-  example.view = RandomView(FitKinds()[static_cast<size_t>(kind)].articulated != nullptr, &rng);
+  example.kind = instance.kind;
+  example.view = view;
   for (int i = 0; i < 3; ++i) {
     example.log_size[static_cast<size_t>(i)] = static_cast<float>(std::log(instance.size[i]));
   }
@@ -57,9 +53,19 @@ PriorExample MakePriorExample(int kind, std::uint64_t seed) {
   for (size_t i = 0; i < std::min(instance.draws.size(), size_t{kPriorDraws}); ++i) {
     example.choices[i] = static_cast<float>(instance.draws[i]);
   }
-  if (FitKinds()[static_cast<size_t>(kind)].opening > 0.0) {
+  if (FitKinds()[static_cast<size_t>(instance.kind)].opening > 0.0) {
     example.choices[kPriorDraws] = static_cast<float>(std::min(instance.opening, 0.9999));
   }
+  return example;
+}
+
+PriorExample MakePriorExample(int kind, std::uint64_t seed) {
+  const Instance instance = SampleInstance(kind, seed);
+  core::Rng rng = core::StreamRng(seed, 104729);
+  core::TexturedMesh mesh = InstanceMesh(instance);
+  if (core::Uniform(rng) < kRecolored) Recolor(&rng, &mesh);
+  PriorExample example = LabelsOf(
+      instance, RandomView(FitKinds()[static_cast<size_t>(kind)].articulated != nullptr, &rng));
 
   render::Scene scene;
   scene.Add(&mesh);

@@ -25,6 +25,9 @@ struct PriorExample {
   std::array<float, kPriorDraws + 1> choices{};
 };
 
+// Returns what the network shall tell of an instance that is seen from `view`, without a picture.
+PriorExample LabelsOf(const Instance& instance, const FitView& view);
+
 // Renders an instance of `kind` from a random view in random light. A part of the pictures has
 // random colours instead of the library's, so that the network does not rely on them.
 PriorExample MakePriorExample(int kind, std::uint64_t seed);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 
@@ -330,6 +331,36 @@ TEST(LibraryTraining, ASmallTrainingLearnsAndWritesWeights) {
   EXPECT_THROW(TrainLibraryNetwork(options, folder / "x.pt", &progress), core::Error);
   options.channels = {16, 32, 48, 64};
   options.pool = 0;
+  EXPECT_THROW(TrainLibraryNetwork(options, folder / "x.pt", &progress), core::Error);
+}
+
+TEST(LibraryTraining, StartsFromWeightsAndTakesPicturesOfScenes) {
+  const fs::path folder = fs::path(testing::TempDir()) / "library_start";
+  fs::create_directories(folder);
+  LibraryTrainingOptions options;
+  options.trainer.steps = 1;
+  options.trainer.learning_rate = 1e-12;  // what it starts from remains
+  options.trainer.save_every = 1;
+  options.batch = 2;
+  options.pool = 6;
+  options.exchange = 1;
+  options.start = ShippedWeights();
+  std::atomic<int> asked = 0;
+  options.scene_share = 1.0;
+  options.scene_example = [&asked](std::uint64_t seed) {
+    ++asked;
+    return MakePriorExample(3, seed);
+  };
+  core::Progress progress;
+  TrainLibraryNetwork(options, folder / "library_prior.pt", &progress);
+  EXPECT_EQ(asked, 7);  // the pool, and the exchange of the step
+  const LibraryPrior before(ShippedWeights()), after(folder / "library_prior.pt");
+  core::Image crop(kPriorSide, kPriorSide, 4);
+  crop.pixels = MakePriorExample(FindFitKind("mug"), 5).picture;
+  const std::vector<double> expected = before.KindProbabilities(crop);
+  const std::vector<double> kinds = after.KindProbabilities(crop);
+  for (size_t k = 0; k < kinds.size(); ++k) EXPECT_NEAR(kinds[k], expected[k], 1e-3);
+  options.scene_share = 1.5;
   EXPECT_THROW(TrainLibraryNetwork(options, folder / "x.pt", &progress), core::Error);
 }
 

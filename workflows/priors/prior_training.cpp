@@ -7,6 +7,7 @@
 #include "importers/catalogue_meshes.h"
 #include "library_fit/fit_kinds.h"
 #include "twin/scene_sources.h"
+#include "twin/table_crops.h"
 
 namespace simwright::workflows {
 namespace {
@@ -21,7 +22,7 @@ void RequireFiles(const PriorTrainingRequest& request) {
                         "from; --parametric-only learns without one");
     }
   }
-  const auto require_start = [](bool wanted, const asset_lift::PriorTrainingOptions& options) {
+  const auto require_start = [](bool wanted, const auto& options) {
     if (wanted && !options.start.empty() && !std::filesystem::exists(options.start)) {
       throw core::Error("no such weights to start from", options.start.string(),
                         "--from names a folder written by `simwright prior train`");
@@ -29,6 +30,7 @@ void RequireFiles(const PriorTrainingRequest& request) {
   };
   require_start(request.shape, request.shape_options);
   require_start(request.view, request.view_options);
+  require_start(request.library, request.library_options);
   if (request.view && !request.shape && !std::filesystem::exists(ShapeWeights(request.output))) {
     throw core::Error("the view prior needs a shape prior", ShapeWeights(request.output),
                       "train it too, or copy one there");
@@ -49,6 +51,16 @@ core::TexturedMesh SampleLibraryMesh(core::Rng* rng) {
 asset_lift::PriorTrainingOptions WithLibrary(asset_lift::PriorTrainingOptions options) {
   if (options.sampler_share > 0.0) options.sampler = SampleLibraryMesh;
   return options;
+}
+
+asset_lift::PriorTrainingReport TrainLibraryPrior(
+    const PriorTrainingRequest& request, const std::filesystem::path& weights,
+    core::Progress* progress, const asset_lift::PriorTrainingListener& listener) {
+  twin::TableSceneSources sources;
+  sources.photos = twin::ReadScenePhotos(request.photos);
+  library_fit::LibraryTrainingOptions options = request.library_options;
+  options.scene_example = [&sources](std::uint64_t seed) { return twin::TableCrop(sources, seed); };
+  return library_fit::TrainLibraryNetwork(options, weights, progress, listener);
 }
 
 }  // namespace
@@ -112,8 +124,7 @@ std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core:
   if (request.library) {
     const std::filesystem::path library = LibraryWeights(request.output);
     trained.push_back({"library", library,
-                       library_fit::TrainLibraryNetwork(request.library_options, library, progress,
-                                                        named("library", library))});
+                       TrainLibraryPrior(request, library, progress, named("library", library))});
   }
   if (request.detector) {
     twin::TableSceneSources sources;
