@@ -2,11 +2,11 @@
 """Trains tasks of a factory that are drawn by lot, and prints how often the policies succeed.
 
     build/bin/simwright factory --theme kitchen --assets 200 --tasks 500 -o kitchen
-    python3 bench/factory/train_drawn_tasks.py kitchen [--count 10] [--decisions 400000]
+    python3 bench/factory/train_drawn_tasks.py kitchen [--count 10] [--decisions 150000]
         [--seed 1] [--seconds 8] [-o FOLDER]
 
 Each task is trained by `simwright train` for at most --decisions a subtask, so that the speed
-of the machine does not matter, then `simwright rollout` the success of the whole task from
+of the machine does not matter, then `simwright rollout` measures the success of the whole task from
 200 fresh starts. A failed training counts as none.
 SIMWRIGHT_PROGRAM names the program (build/bin/simwright). --resume keeps what FOLDER holds.
 """
@@ -28,7 +28,8 @@ def train(tasks, name, folder, options):
     """Trains one task and returns the report of its rollouts, or the reason for none."""
     if not (options.resume and (folder / "report.json").exists()):
         command = [PROGRAM, "train", str(tasks), "--task", name, "-o", str(folder), "--quiet",
-                   "--minutes", "0", "--steps", str(options.decisions), "--seconds", str(options.seconds)]
+                   "--minutes", "0", "--steps", str(options.decisions),
+                   "--seconds", str(options.seconds)]
         trained = subprocess.run(command, capture_output=True, text=True, check=False)
         if not (folder / "report.json").exists():
             lines = (trained.stderr.strip() or trained.stdout.strip()).splitlines()
@@ -46,7 +47,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("factory", type=pathlib.Path)
     parser.add_argument("--count", type=int, default=10)
-    parser.add_argument("--decisions", type=int, default=400_000)
+    parser.add_argument("--decisions", type=int, default=150_000)
     parser.add_argument("--seconds", type=float, default=8.0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--resume", action="store_true")

@@ -2,14 +2,15 @@
 // sizes with the truth.
 //   bench_twin_table [--count N] [--first N] [--camera known|unknown] [--detector FILE]
 //                    [--photos FOLDER] [--tuning] [--threads N] [--detections-only] [--settle]
-//                    [--pictures FOLDER]
+//                    [--pictures FOLDER] [--guess-only]
 // --count: tables (60), from number --first (0) on. --camera unknown: elevation, focal length, roll
 // and height are unknown, or, without a detector, guessed with errors of 4.6 degrees, 12 %, 1.1
 // degrees and 20 %; positions and yaws are then compared after a rigid alignment in the plane.
 // --detector: weights; without them the true masks are given. --tuning: instances of training
 // seeds, for choosing settings. --photos: what is behind and below the objects. --detections-only
 // rebuilds nothing. --settle: poses are compared after physics, and the twins that stand without
-// interpenetration are counted. --pictures: a picture of each table, the photo beside the
+// interpenetration are counted. --guess-only: only kinds, and the unknown camera as the library
+// prior guesses it, before the search. --pictures: a picture of each table, the photo beside the
 // detections.
 #include <algorithm>
 #include <chrono>
@@ -26,6 +27,8 @@
 #include "library_fit/library_prior.h"
 #include "rl/wilson_interval.h"
 #include "settled_twin.h"
+#include "twin/camera_guess.h"
+#include "twin/observed_object.h"
 #include "twin/scene_sources.h"
 #include "twin_judgement.h"
 #include "workflows/priors/models_folder.h"
@@ -41,7 +44,7 @@ constexpr double kTouching = 1e-3;  // m: a deeper interpenetration counts
 
 struct Options {
   int count = 60, first = 0;
-  bool unknown = false, tuning = false, detections_only = false, settle = false;
+  bool unknown = false, tuning = false, detections_only = false, settle = false, guess_only = false;
   std::string detector;
   std::filesystem::path pictures;
   std::vector<std::filesystem::path> photos;
@@ -51,10 +54,12 @@ Options Parse(int argc, char** argv) {
   Options options;
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
-    if (flag == "--tuning" || flag == "--detections-only" || flag == "--settle") {
-      (flag == "--tuning"   ? options.tuning
-       : flag == "--settle" ? options.settle
-                            : options.detections_only) = true;
+    if (flag == "--tuning" || flag == "--detections-only" || flag == "--settle" ||
+        flag == "--guess-only") {
+      (flag == "--tuning"       ? options.tuning
+       : flag == "--settle"     ? options.settle
+       : flag == "--guess-only" ? options.guess_only
+                                : options.detections_only) = true;
       continue;
     }
     if (i + 1 >= argc) throw core::Error("the option needs a value", flag);
@@ -207,6 +212,10 @@ class TableBench {
       Keep(number, SideBySide(picture.color, DetectionsPicture(picture.color, found)));
       return;
     }
+    if (options_.guess_only) {
+      Guess(picture.color, found, scene, matched, indices);
+      return;
+    }
     twin::TableReconstruction table =
         twin::ReconstructTable(picture.color, found, prior_, {}, &silent_);
     if (options_.settle) Settle(number, picture.color, found, &table);
@@ -218,9 +227,34 @@ class TableBench {
       objects.push_back(match < 0 ? -1 : indices[static_cast<size_t>(match)]);
     }
     AddErrors(JudgeTable(table, objects, scene, options_.unknown), scene, number, &sums_);
-    sums_.elevation.push_back(std::abs(table.camera.elevation - camera.elevation));
-    sums_.focal.push_back(std::abs(std::log(table.camera.focal / camera.focal)));
-    sums_.height.push_back(std::abs(std::log(table.camera.height / camera.height)));
+    AddCameraErrors(table.camera, camera);
+  }
+
+  void AddCameraErrors(const twin::TableCamera& found, const twin::TableCamera& truth) {
+    sums_.elevation.push_back(std::abs(found.elevation - truth.elevation));
+    sums_.focal.push_back(std::abs(std::log(found.focal / truth.focal)));
+    sums_.height.push_back(std::abs(std::log(found.height / truth.height)));
+  }
+
+  // Judges the prior's first kinds and its guess of the camera.
+  void Guess(const core::Image& photo, const twin::Detections& found, const twin::TableScene& scene,
+             const std::vector<int>& matched, const std::vector<int>& indices) {
+    const std::vector<twin::ObservedObject> observed =
+        twin::ObserveObjects(photo, found.objects, 80);
+    const std::vector<int>& kinds = twin::TableKinds();
+    for (size_t k = 0; k < observed.size(); ++k) {
+      if (matched[k] < 0) continue;
+      const std::vector<double> odds = prior_.KindProbabilities(observed[k].prior_crop);
+      const int best = *std::max_element(kinds.begin(), kinds.end(), [&](int a, int b) {
+        return odds[static_cast<size_t>(a)] < odds[static_cast<size_t>(b)];
+      });
+      const auto object = static_cast<size_t>(indices[static_cast<size_t>(matched[k])]);
+      sums_.kinds += best == scene.objects[object].instance.kind;
+    }
+    const twin::TableCamera truth = twin::TableCameraOf(scene.camera);
+    const twin::TableCameraGuess guess =
+        twin::GuessByObjects(observed, {}, prior_, photo.width, photo.height, {});
+    AddCameraErrors(guess.camera, truth);
   }
 
   static void PrintDetections(int number, const twin::TableScene& scene,
