@@ -259,6 +259,11 @@ TEST_F(TwinSources, TheProgramTakesThem) {
   EXPECT_EQ(fewer.code, 1);
   EXPECT_EQ(fewer.text.rfind("error: --depth: there are 2 photos, and 1 of these files", 0), 0u)
       << fewer.text;
+  const Outcome scale =
+      RunProgram("twin " + photo + " --depth-scale 0.0001 --quiet -o " + Path("twin").string());
+  EXPECT_EQ(scale.code, 2);
+  EXPECT_EQ(scale.text.rfind("error: --depth-scale requires --depth", 0), 0u) << scale.text;
+  EXPECT_EQ(std::count(scale.text.begin(), scale.text.end(), '\n'), 1) << scale.text;
   const Outcome replay = RunProgram("twin " + Path("photo.png").string() + " --replay " +
                                     Path("none.jsonl").string() + " -o " + Path("twin").string());
   EXPECT_EQ(replay.code, 1);
