@@ -111,7 +111,14 @@ TEST(RunTwin, RefusesATwinWithoutAGraspableObject) {
   const auto run = [&] { RunTwin(request, &silent); };
   EXPECT_NE(Refusal(run).find("no object of the twin can be picked up"), std::string::npos)
       << Refusal(run);
+  // The findings of the tasks stay in the run, and are made again after a stop between the two.
   request.resume = true;
+  const std::filesystem::path findings = request.output / "task_findings.json";
+  const std::string text = core::ReadFile(findings);
+  EXPECT_NE(text.find("twin-robot-placed"), std::string::npos) << text;
+  std::filesystem::remove(findings);
+  EXPECT_NE(Refusal(run).find("can be picked up"), std::string::npos) << Refusal(run);
+  EXPECT_EQ(core::ReadFile(findings), text);
   request.sigmas = 3.0;
   EXPECT_NE(Refusal(run).find("other options"), std::string::npos) << Refusal(run);
   std::filesystem::create_directories(folder.path() / "mine");
