@@ -48,8 +48,8 @@ PerturbedTwin PerturbedTwinOf(const TransferTask& task, const workflows::TwinRec
 std::vector<rl::Policy> PoliciesOf(const TransferTask& task);
 
 // Measures how often a motion, and the policy that it comes from, succeed in worlds within the
-// twin's uncertainty (PerturbedTwin), and up to which scale of its uncertainty. A pure function of the
-// files and the seed. Throws core::Error for a file, run or twin that cannot be read or do not
+// twin's uncertainty (PerturbedTwin), and up to which scale of its uncertainty. A pure function of
+// the files and the seed. Throws core::Error for a file, run or twin that cannot be read or do not
 // belong together, and core::Cancelled.
 TransferReport CheckTransfer(const TransferRequest& request, core::Progress* progress);
 
