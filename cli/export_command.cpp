@@ -226,6 +226,19 @@ void RequireExportSource(const ExportFlags& flags) {
   }
 }
 
+void AddWorldOptions(CLI::App* command, ExportFlags* flags) {
+  command->add_flag("--world", flags->world,
+                    "Export the robot, furniture and objects of a task as one world (mjcf, sdf, "
+                    "drake, usd)");
+  command->add_option("--task", flags->task, "With --world: the task")
+      ->default_str("the folder's first");
+  command->add_option("--robot", flags->robot,
+                      "With --world and a tasks.json: panda, panda_on_base, or a URDF");
+  command->add_flag("--sampled-start", flags->sampled,
+                    "With --world: a start sampled with --seed as in an evaluation, not the start "
+                    "that the task describes");
+}
+
 void AddMotionOptions(CLI::App* command, workflows::ExportRequest* motions) {
   command->add_option("--joint-names", motions->joint_names,
                       "The controller's joint names: panda, fr3 (also applies that robot's "
@@ -295,16 +308,7 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
                    "A shipped policy instead of a folder (onnx, torchscript, or images)")
       ->excludes(folder);
   command->add_option("--subtask", flags->subtask, "Only the policy or world of this subtask");
-  command->add_flag("--world", flags->world,
-                    "Export the robot, furniture and objects of a task as one world (mjcf, sdf, "
-                    "drake, usd)");
-  command->add_option("--task", flags->task, "With --world: the task")
-      ->default_str("the folder's first");
-  command->add_option("--robot", flags->robot,
-                      "With --world and a tasks.json: panda, panda_on_base, or a URDF");
-  command->add_flag("--sampled-start", flags->sampled,
-                    "With --world: a start sampled with --seed as in an evaluation, not the start "
-                    "that the task describes");
+  AddWorldOptions(command, flags.get());
   AddChoice(command, "--format",
             {"ros2", "csv", "robomimic", "lerobot", "mcap", "onnx", "torchscript", "usd", "glb",
              "mjcf", "sdf", "drake"},

@@ -45,29 +45,10 @@ int TrainSkill(const SkillTrainFlags& flags, const CommonOptions& common) {
   return 0;
 }
 
-}  // namespace
-
-void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
-  auto flags = std::make_shared<SkillTrainFlags>();
-  workflows::TrainRequest* request = &flags->request;
-  CLI::App* command =
-      app->add_subcommand("train", "Train a policy for each subtask of a task, in Bullet");
-  command->footer(
-      "Examples:\n  simwright train tasks.json --task pick_up_cup_1 -o pick\n"
-      "  simwright train tasks.json --task 'pick_up_cup_*' -o pick_any\n"
-      "  simwright train tasks.json --task pick_up_mug_1 --twin twin -o pick_mug\n"
-      "Subtasks are learnt in order, each mostly from the ends of the previous one. Ctrl-C or a "
-      "crash\n"
-      "loses at most half a minute: --resume continues. See docs/skills.md.");
-  command->add_option("tasks", request->task_file, "The file written by `simwright tasks`")
-      ->required();
+// Adds what acts, and how: the robot, its action space and its grasps.
+void AddActionOptions(CLI::App* command, SkillTrainFlags* flags) {
   command
-      ->add_option("--task", request->tasks,
-                   "The task, '*' matches any characters; several tasks share one policy")
-      ->required();
-  command->add_option("-o,--output", request->output, "The run folder")->required();
-  command
-      ->add_option("--robot", request->robot,
+      ->add_option("--robot", flags->request.robot,
                    "panda, panda_on_base, or a URDF with a side file (docs/robots.md)")
       ->capture_default_str();
   command
@@ -89,9 +70,34 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
           "is one (proved; see `simwright grasps`), or from above (above)")
       ->check(CLI::IsMember({"proved", "above"}))
       ->default_str("proved");
-  command->add_option("--seconds", request->episode_seconds, "Maximum duration of an episode, s")
+  command
+      ->add_option("--seconds", flags->request.episode_seconds, "Maximum duration of an episode, s")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();
+}
+
+}  // namespace
+
+void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
+  auto flags = std::make_shared<SkillTrainFlags>();
+  workflows::TrainRequest* request = &flags->request;
+  CLI::App* command =
+      app->add_subcommand("train", "Train a policy for each subtask of a task, in Bullet");
+  command->footer(
+      "Examples:\n  simwright train tasks.json --task pick_up_cup_1 -o pick\n"
+      "  simwright train tasks.json --task 'pick_up_cup_*' -o pick_any\n"
+      "  simwright train tasks.json --task pick_up_mug_1 --twin twin -o pick_mug\n"
+      "Subtasks are learnt in order, each mostly from the ends of the previous one. Ctrl-C or a "
+      "crash\n"
+      "loses at most half a minute: --resume continues. See docs/skills.md.");
+  command->add_option("tasks", request->task_file, "The file written by `simwright tasks`")
+      ->required();
+  command
+      ->add_option("--task", request->tasks,
+                   "The task, '*' matches any characters; several tasks share one policy")
+      ->required();
+  command->add_option("-o,--output", request->output, "The run folder")->required();
+  AddActionOptions(command, flags.get());
   CLI::Option* twin =
       command
           ->add_option("--twin", flags->twin,

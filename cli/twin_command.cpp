@@ -72,6 +72,23 @@ int Twin(const TwinFlags& flags, const CommonOptions& common) {
   return 0;
 }
 
+// Adds what states the camera, in place of what is estimated.
+void AddCameraOptions(CLI::App* command, workflows::TwinRequest* request) {
+  command->add_option("--camera", request->intrinsics,
+                      "Calibration: JSON or YAML with fx, fy, cx, cy, or camera_info of ROS");
+  command->add_option("--fov", request->camera.fov, "Horizontal field of view, degrees")
+      ->default_str("from EXIF, else estimated");
+  command
+      ->add_option("--elevation", request->camera.elevation,
+                   "Degrees by which the camera looks down")
+      ->default_str("estimated");
+  command
+      ->add_option("--camera-height", request->camera.height,
+                   "Metres of the camera above the table")
+      ->default_str("by the usual sizes of the objects");
+  command->add_flag("--upright", request->camera.upright, "The photo is not rolled");
+}
+
 }  // namespace
 
 void AddTwin(CLI::App* app, CommonOptions* common, Run* run) {
@@ -96,33 +113,23 @@ void AddTwin(CLI::App* app, CommonOptions* common, Run* run) {
                    "JSON file with boxes, categories and masks, in place of the detector "
                    "(docs/twin.md); of several photos, once for each")
       ->allow_extra_args(false);
-  command
-      ->add_option("--depth", flags->depths,
-                   "Depth image of the photo, 16-bit PNG of the same aspect: gives the table's "
-                   "plane, the scale and the objects; of several photos, once for each")
-      ->allow_extra_args(false);
+  CLI::Option* depth =
+      command
+          ->add_option("--depth", flags->depths,
+                       "Depth image of the photo, 16-bit PNG of the same aspect: gives the table's "
+                       "plane, the scale and the objects; of several photos, once for each")
+          ->allow_extra_args(false);
   command->add_option("--depth-scale", request->depth_unit, "Metres of one step of --depth")
       ->check(Positive())
+      ->needs(depth)
       ->capture_default_str();
-  command->add_option("--camera", request->intrinsics,
-                      "Calibration: JSON or YAML with fx, fy, cx, cy, or camera_info of ROS");
+  AddCameraOptions(command, request);
   command->add_option("--assets", request->assets,
                       "Asset folders, or folders of them: objects that are among them are found "
                       "again, with their true size");
   command->add_flag("--free-form", request->free_form,
                     "Reconstruct doubtful objects from the photo, about a minute each, in place of "
                     "the nearest kind");
-  command->add_option("--fov", request->camera.fov, "Horizontal field of view, degrees")
-      ->default_str("from EXIF, else estimated");
-  command
-      ->add_option("--elevation", request->camera.elevation,
-                   "Degrees by which the camera looks down")
-      ->default_str("estimated");
-  command
-      ->add_option("--camera-height", request->camera.height,
-                   "Metres of the camera above the table")
-      ->default_str("by the usual sizes of the objects");
-  command->add_flag("--upright", request->camera.upright, "The photo is not rolled");
   command
       ->add_option("--detector", request->detector,
                    "Weights of simwright prior train --only detector, in place of --objects")

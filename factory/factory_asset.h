@@ -16,7 +16,7 @@ namespace simwright::factory {
 AssetRecord MakeFactoryAsset(const FactoryItem& item, const FactoryFolder& folder,
                              const std::shared_ptr<texture::ImageGenerator>& generator);
 
-// Throws core::Error if less than 200 MB are free where the folder lies.
+// Throws core::Error if less than 200 MB are free on the folder's file system.
 void RequireFreeDisk(const std::filesystem::path& folder);
 
 // Returns the processor time of the calling thread, s.

@@ -111,7 +111,7 @@ class PictureCollector {
            "raise --pictures");
   }
 
-  // Adds a warning about `count` things unless there are none.
+  // Adds a warning with its count unless `count` is 0.
   void Report(const char* code, int count, const char* sentence, const char* remedy) {
     if (count == 0) return;
     report_.findings.push_back({code, core::Severity::kWarning, request_.images.string(),

@@ -1,7 +1,6 @@
 #include "sim/articulated_world.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -18,6 +17,7 @@
 #include "sim/exclusion_filter.h"
 #include "sim/floor_contact.h"
 #include "sim/joint_velocity_constraint.h"
+#include "sim/link_setup.h"
 #include "sim/link_tree.h"
 
 namespace simwright::sim {
@@ -29,10 +29,6 @@ constexpr int kFloorUserIndex = -1;  // Bullet's own default for unnumbered bodi
 // m: Bullet keeps a contact point while its bodies slide past each other by less than this. With
 // the default of 2 cm a closing oven door was blocked by a point that it had already passed.
 constexpr double kContactReach = 0.002;
-
-// The share of a gear's error that one step corrects, times the world's own share (Bullet
-// multiplies the two). Without it the fingers of a gripper drift as a pair.
-constexpr double kGearRecovery = 1.0;
 
 double FrictionOf(const RigidBody& link, int index, const Placement& placement) {
   for (const auto& [given, friction] : placement.link_friction) {
@@ -82,44 +78,6 @@ struct LoadedTree {
   }
 };
 
-// Sets up link `index` >= 1 of the body, rotated to its principal axes.
-void SetUpLink(const ArticulatedBody& body, int index, double mass_scale, LoadedTree* loaded) {
-  const size_t i = static_cast<size_t>(index);
-  const assets::Joint& joint = body.joints()[i - 1];
-  const TreeLink& link = loaded->tree->links[i];
-  const TreeLink& parent_link =
-      loaded->tree->links[static_cast<size_t>(body.kinematics->parents()[i - 1])];
-  const TreeLink& carrier = loaded->tree->links[static_cast<size_t>(parent_link.carrier)];
-  const Eigen::Isometry3d parent_from_principal = carrier.link_from_principal.inverse() *
-                                                  parent_link.carrier_from_link *
-                                                  joint.parent_from_joint;
-  const Eigen::Matrix3d principal_from_link = link.link_from_principal.linear().transpose();
-  const Eigen::Quaterniond turn(principal_from_link * parent_from_principal.linear().transpose());
-  const btQuaternion this_from_parent(turn.x(), turn.y(), turn.z(), turn.w());
-  const btVector3 axis = ToBullet(Eigen::Vector3d(principal_from_link * joint.axis));
-  const btVector3 to_pivot = ToBullet(Eigen::Vector3d(parent_from_principal.translation()));
-  const btVector3 to_center =
-      ToBullet(Eigen::Vector3d(principal_from_link * link.link_from_principal.translation()));
-  const double mass = mass_scale * link.mass;
-  const btVector3 moments = mass_scale * ToBullet(link.moments);
-  const int parent = carrier.bullet;
-  btMultiBody* multi = loaded->multi.get();
-  // Bullet's root is link -1.
-  switch (joint.type) {
-    case assets::JointType::kRevolute:
-    case assets::JointType::kContinuous:
-      multi->setupRevolute(link.bullet, mass, moments, parent, this_from_parent, axis, to_pivot,
-                           to_center, false);
-      break;
-    case assets::JointType::kPrismatic:
-      multi->setupPrismatic(link.bullet, mass, moments, parent, this_from_parent, axis, to_pivot,
-                            to_center, false);
-      break;
-    default:
-      multi->setupFixed(link.bullet, mass, moments, parent, this_from_parent, to_pivot, to_center);
-  }
-}
-
 void RequireMass(const ArticulatedBody& body, bool fixed) {
   for (size_t i = 0; i < body.links.size(); ++i) {
     const bool moves = i == 0 ? !fixed : body.joints()[i - 1].Moves();
@@ -129,20 +87,6 @@ void RequireMass(const ArticulatedBody& body, bool fixed) {
                         "add an <inertial> element");
     }
   }
-}
-
-// Couples joint `follower` to multiplier * leader + offset.
-std::unique_ptr<btMultiBodyGearConstraint> GearTo(const assets::JointMimic& mimic, int leader,
-                                                  int follower, LoadedTree* loaded) {
-  const btVector3 zero(0, 0, 0);
-  const btMatrix3x3 unturned = btMatrix3x3::getIdentity();
-  auto gear = std::make_unique<btMultiBodyGearConstraint>(
-      loaded->multi.get(), follower, loaded->multi.get(), leader, zero, zero, unturned, unturned);
-  gear->setGearRatio(-mimic.multiplier);
-  gear->setRelativePositionTarget(mimic.offset);
-  gear->setErp(kGearRecovery);
-  gear->setMaxAppliedImpulse(std::numeric_limits<float>::max());
-  return gear;
 }
 
 void AddOffsets(LoadedTree* loaded) {
@@ -277,7 +221,7 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double sca
     if (joint.mimic) {
       entry.gear =
           GearTo(*joint.mimic, loaded->Joint(body.kinematics->JointIndex(joint.mimic->joint)), link,
-                 loaded);
+                 loaded->multi.get());
       world->addMultiBodyConstraint(entry.gear.get());
     }
     if (joint.type == assets::JointType::kContinuous) continue;
@@ -349,7 +293,7 @@ int ArticulatedWorld::Add(std::shared_ptr<const PreparedBody> prepared,
       ToBullet(Eigen::Isometry3d(placement.world_from_root * root.link_from_principal)));
   for (size_t i = 1; i < body.links.size(); ++i) {
     if (loaded->tree->links[i].carrier != static_cast<int>(i)) continue;
-    SetUpLink(body, static_cast<int>(i), mass_scale, loaded.get());
+    SetUpLink(body, *loaded->tree, static_cast<int>(i), mass_scale, loaded->multi.get());
   }
   loaded->multi->finalizeMultiDof();
   loaded->multi->setHasSelfCollision(placement.self_contacts);

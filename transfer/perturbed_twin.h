@@ -18,7 +18,7 @@ struct PhysicsRanges {
   double own_finger_friction = 2.0;     // the robot's
 };
 
-// The worlds that a twin may stand for, within its own uncertainty.
+// Samples the worlds that agree with a twin within its own uncertainty.
 class PerturbedTwin {
  public:
   // `described`: the twin's objects as a task places them. Throws core::Error, naming the object,

@@ -47,9 +47,9 @@ PerturbedTwin PerturbedTwinOf(const TransferTask& task, const workflows::TwinRec
 // Returns the policies of a run's subtasks, in order; empty if one has none yet.
 std::vector<rl::Policy> PoliciesOf(const TransferTask& task);
 
-// Measures how often a motion, and the policy that it comes from, succeed in worlds that the twin
-// may stand for (PerturbedTwin), and up to which scale of its uncertainty. A pure function of the
-// files and the seed. Throws core::Error for a file, run or twin that cannot be read or do not
+// Measures how often a motion, and the policy that it comes from, succeed in worlds within the
+// twin's uncertainty (PerturbedTwin), and up to which scale of its uncertainty. A pure function of
+// the files and the seed. Throws core::Error for a file, run or twin that cannot be read or do not
 // belong together, and core::Cancelled.
 TransferReport CheckTransfer(const TransferRequest& request, core::Progress* progress);
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/finding_json.h"
 #include "core/json.h"
 #include "tasks/task_file.h"
 #include "transfer/pick_choice.h"
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kRecord = "twin_run.json";
+constexpr const char* kTaskFindings = "task_findings.json";
 
 std::string RecordText(const TwinRunRequest& request) {
   core::Json json = {{"format", 1},
@@ -69,15 +71,23 @@ std::string ChosenTask(const TwinRunRequest& request, const tasks::TaskSet& set,
                     "choose another --task of " + file.string());
 }
 
+// Makes the tasks with their findings, or reads those of an earlier call.
 tasks::TaskSet TasksOf(const TwinRunRequest& request, const fs::path& file,
                        core::Progress* progress, core::Findings* findings) {
-  if (fs::exists(file)) return tasks::ReadTaskFile(file);
+  const fs::path stored = request.output / kTaskFindings;
+  if (fs::exists(file) && fs::exists(stored)) {
+    const core::JsonDocument document(core::ReadFile(stored), stored.string(), "");
+    *findings = core::FindingsFrom(document.root());
+    return tasks::ReadTaskFile(file);
+  }
   TwinTasksRequest wanted;
   wanted.twin = request.twin;
   wanted.output = file;
   wanted.robot = request.robot;
   wanted.seed = request.seed;
+  wanted.force = true;  // a stopped run may have left them without findings
   workflows::TasksReport report = MakeTwinTasks(wanted, progress);
+  core::WriteFile(stored, core::JsonText(core::StoredFindingsJson(report.findings)));
   *findings = std::move(report.findings);
   return std::move(report.set);
 }
@@ -148,6 +158,7 @@ std::string TwinRunJson(const TwinRunOutcome& outcome) {
   json["transfer"] = core::ParseOrderedJson(TransferJson(outcome.transfer), "transfer");
   json["folder"] = outcome.folder.string();
   json["picture"] = outcome.picture.string();
+  json["findings"] = core::FindingsJson(outcome.findings);
   return core::JsonText(json);
 }
 

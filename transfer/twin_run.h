@@ -39,9 +39,9 @@ struct TwinRunOutcome {
 
 // Generates the twin's tasks, trains one of them with the randomization that the twin's uncertainty
 // asks for, exports the motion that holds best, and checks its transfer: docs/twin.md lists the
-// files. Finished stages are kept; with `resume` a stopped run continues. Throws core::Error for a
-// twin without a task, an unknown task, an output that exists, and wherever the stages do; and
-// core::Cancelled.
+// files. With `resume`, the tasks, their findings and what is trained are kept, and the later
+// stages run again. Throws core::Error for a twin without a task, an unknown task, an output that
+// exists, and wherever the stages do; and core::Cancelled.
 TwinRunOutcome RunTwin(const TwinRunRequest& request, core::Progress* progress);
 
 std::string TwinRunTable(const TwinRunOutcome& outcome);

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "library_fit/cma_es.h"
+#include "library_fit/fit_kinds.h"
 #include "render/forward.h"
 #include "render/scene.h"
 #include "twin/observed_object.h"
@@ -256,6 +257,12 @@ void TakeAsset(const PlacedAsset& placed, const TableAsset& asset, const Detecti
 }
 
 }  // namespace
+
+const std::string& NameOf(const ReconstructedObject& object,
+                          const std::vector<TableAsset>& assets) {
+  if (object.retrieved >= 0) return assets.at(static_cast<size_t>(object.retrieved)).name;
+  return library_fit::FitKinds().at(static_cast<size_t>(object.fit.instance.kind)).name;
+}
 
 bool RetrievalOptions::IsValid(std::string* error) const {
   const auto fail = [error](const char* reason) {

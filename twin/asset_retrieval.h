@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/finding.h"
@@ -45,5 +46,8 @@ struct RetrievalOptions {
 void RetrieveAssets(const core::Image& photo, const Detections& detections,
                     const std::vector<TableAsset>& assets, const RetrievalOptions& options,
                     TableReconstruction* table, core::Progress* progress, core::Findings* findings);
+
+// Returns the name of a retrieved object's asset, of `assets`, or of a fitted object's kind: "mug".
+const std::string& NameOf(const ReconstructedObject& object, const std::vector<TableAsset>& assets);
 
 }  // namespace simwright::twin

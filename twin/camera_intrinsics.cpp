@@ -22,7 +22,7 @@ constexpr std::uint64_t kMostCalibrationBytes = 1u << 20;
 constexpr std::size_t kMostNumbers = 64;                // of a member that counts
 constexpr double kAspectTolerance = 0.01;               // relative
 constexpr double kSquareTolerance = 0.02;               // of fy over fx
-constexpr double kFarPrincipal = 0.1;                   // of a side, from the middle: reported
+constexpr double kFarPrincipal = 0.1;                   // of a side, from the centre: reported
 constexpr double kImplausiblePrincipal = 0.25;          // refused
 constexpr double kVisibleDistortion = 0.02;             // of a coefficient: reported
 constexpr double kLeastFocal = 0.3, kMostFocal = 10.0;  // widths of the photo
@@ -216,13 +216,13 @@ CameraIntrinsics ReadCameraIntrinsics(const fs::path& file, int width, int heigh
   intrinsics.principal = {lens.cx / size.x(), lens.cy / size.y()};
   const double off = (intrinsics.principal.array() - 0.5).abs().maxCoeff();
   if (!(off <= kImplausiblePrincipal)) {
-    calibration.Fail("the principal point is farther than a quarter of a side from the middle",
+    calibration.Fail("the principal point is farther than a quarter of a side from the centre",
                      "state the width and height of the calibrated pictures");
   }
   if (off > kFarPrincipal) {
     intrinsics.findings.push_back({"twin-principal-point", core::Severity::kWarning,
                                    file.filename().string(),
-                                   "the principal point is far from the middle of the photo, as in "
+                                   "the principal point is far from the centre of the photo, as in "
                                    "a cropped one",
                                    off, "check that the calibration is of this camera"});
   }

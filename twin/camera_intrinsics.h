@@ -20,7 +20,7 @@ struct CameraIntrinsics {
 // the size of its own pictures (`width` and `height`, or `image_width` and `image_height`), from
 // which it is scaled. Distortion is not undone, and reported. Throws core::Error, naming the file,
 // where a number is missing or implausible, the pictures have another aspect, the pixels are not
-// square, or the principal point is farther than a quarter of a side from the middle.
+// square, or the principal point is farther than a quarter of a side from the centre.
 CameraIntrinsics ReadCameraIntrinsics(const std::filesystem::path& file, int width, int height);
 
 }  // namespace simwright::twin

@@ -14,7 +14,7 @@ struct DetectedPixels {
   std::vector<Eigen::Vector2f> offset;  // pixels, from the pixel to the centre of its object
 };
 
-// Which object a pixel shows, and the heat of the objects' centres.
+// The object that each pixel shows, and the heat of the objects' centres.
 struct PixelGroups {
   std::vector<int> group;     // by pixel: index of the object, or -1
   std::vector<float> centre;  // by object

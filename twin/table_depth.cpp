@@ -189,7 +189,7 @@ DepthPlane FitTablePlane(const core::FloatImage& depth, const TableCamera& lens,
     (is_table ? table : other) = plane;
   }
   const auto total = static_cast<double>(points.size());
-  // A wall before the camera holds planes that lie nearly as it does, within the range of tables.
+  // The points of a wall also agree with planes tilted against it, within the range of tables.
   const bool is_wall = of_other > of_table && table.normal.dot(other.normal) > kSamePlaneCosine;
   if (is_wall || static_cast<double>(of_table) < kLeastPlaneShare * total) {
     const bool largest = of_table > of_other;

@@ -22,8 +22,8 @@ struct DepthPlane {
 };
 
 // Fits the plane of a table to the depth of a photo: RANSAC (Fischler and Bolles 1981) among the
-// planes that lie as tables do before a camera (TableCamera::IsValid), then least squares over the
-// points within three standard deviations. `lens`: focal length and principal point. Throws
+// planes that give a valid camera (TableCamera::IsValid), then least squares over the points within
+// three standard deviations. `lens`: focal length and principal point. Throws
 // core::Error, naming `where` and what the largest plane is like, if no such plane holds 12 % of
 // the measured pixels.
 DepthPlane FitTablePlane(const core::FloatImage& depth, const TableCamera& lens, std::uint64_t seed,

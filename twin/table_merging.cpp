@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "library_fit/fit_kinds.h"
+#include "twin/asset_retrieval.h"
 
 namespace simwright::twin {
 namespace {
@@ -176,27 +176,25 @@ class Alignment {
 struct View {
   int view = 0, object = 0;
   const ReconstructedObject* of = nullptr;
+  std::string name;  // of its kind or asset
   Eigen::Vector2d place{0, 0};
   double yaw = 0.0, log_size = 0.0;  // of the factor of the size
   double log_scale_error = 0.0;      // of the view's reconstruction
 };
 
-View ViewOf(const std::vector<TableReconstruction>& views, int view, int object,
-            const MergedTables& merged) {
+View ViewOf(const std::vector<TableReconstruction>& views, const std::vector<TableAsset>& assets,
+            int view, int object, const MergedTables& merged) {
   const PlaneSimilarity& to_first = merged.first_from_view[static_cast<std::size_t>(view)];
   View seen;
   seen.view = view;
   seen.object = object;
   seen.of = &views[static_cast<std::size_t>(view)].objects[static_cast<std::size_t>(object)];
+  seen.name = NameOf(*seen.of, assets);
   seen.place = std::exp(merged.log_scale) * (to_first * PlaceOf(*seen.of));
   seen.yaw = seen.of->fit.pose.yaw + to_first.turn;
   seen.log_size = to_first.log_scale + merged.log_scale;
   seen.log_scale_error = views[static_cast<std::size_t>(view)].log_scale_error;
   return seen;
-}
-
-const char* KindNameOf(const View& view) {
-  return library_fit::FitKinds()[static_cast<std::size_t>(view.of->fit.instance.kind)].name.c_str();
 }
 
 // Returns the view whose fit is taken: the most confident one of the kind with most confidence.
@@ -250,10 +248,10 @@ MergedObject MergeViews(const std::vector<View>& views, double log_scale_error,
   if (is_disputed) {
     std::string kinds;
     for (const View& view : views) {
-      kinds += (kinds.empty() ? "" : ", ") + std::string(KindNameOf(view)) + " in photo " +
-               std::to_string(view.view + 1);
+      kinds +=
+          (kinds.empty() ? "" : ", ") + view.name + " in photo " + std::to_string(view.view + 1);
     }
-    findings->push_back({"twin-views-disagree", core::Severity::kWarning, KindNameOf(taken),
+    findings->push_back({"twin-views-disagree", core::Severity::kWarning, taken.name,
                          "the photos disagree on an object: " + kinds, merged.confidence,
                          "--objects states its category"});
   }
@@ -280,7 +278,8 @@ Eigen::Vector2d PlaneSimilarity::operator*(const Eigen::Vector2d& point) const {
   return std::exp(log_scale) * (Eigen::Rotation2Dd(turn) * point) + move;
 }
 
-MergedTables MergeTables(const std::vector<TableReconstruction>& views) {
+MergedTables MergeTables(const std::vector<TableReconstruction>& views,
+                         const std::vector<TableAsset>& assets) {
   if (views.empty()) throw core::Error("there is no reconstruction to merge");
   MergedTables merged;
   merged.first_from_view.resize(views.size());
@@ -298,13 +297,13 @@ MergedTables MergeTables(const std::vector<TableReconstruction>& views) {
   MergeScales(views, &merged);
   std::vector<std::vector<View>> groups(views[0].objects.size());
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    groups[i].push_back(ViewOf(views, 0, static_cast<int>(i), merged));
+    groups[i].push_back(ViewOf(views, assets, 0, static_cast<int>(i), merged));
   }
   for (std::size_t v = 1; v < views.size(); ++v) {
     std::vector<int> group_of(views[v].objects.size(), -1);
     for (const auto& [first, other] : matches[v]) group_of[static_cast<std::size_t>(other)] = first;
     for (std::size_t k = 0; k < group_of.size(); ++k) {
-      const View view = ViewOf(views, static_cast<int>(v), static_cast<int>(k), merged);
+      const View view = ViewOf(views, assets, static_cast<int>(v), static_cast<int>(k), merged);
       if (group_of[k] >= 0) {
         groups[static_cast<std::size_t>(group_of[k])].push_back(view);
         continue;
@@ -322,7 +321,7 @@ MergedTables MergeTables(const std::vector<TableReconstruction>& views) {
         groups.push_back({view});
       } else {
         merged.findings.push_back(
-            {"twin-views-disagree", core::Severity::kInfo, KindNameOf(view),
+            {"twin-views-disagree", core::Severity::kInfo, view.name,
              "photo " + std::to_string(v + 1) + " alone shows a doubtful object; it is left out",
              view.of->confidence, "--objects states its box"});
       }

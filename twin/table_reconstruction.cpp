@@ -43,6 +43,31 @@ std::vector<std::vector<TableFit>> FitAll(const library_fit::LibraryPrior& prior
   return all;
 }
 
+// Searches for the camera from the guess, with fits of the few likeliest kinds.
+void SearchFirstCamera(const core::Image& photo, const std::vector<ObservedObject>& observed,
+                       const library_fit::LibraryPrior& prior,
+                       const TableReconstructionOptions& options, const TableFitOptions& fit,
+                       core::Progress* progress, TableCameraGuess* guess) {
+  const int width = photo.width, height = photo.height;
+  progress->Stage("camera", static_cast<std::int64_t>(observed.size()) +
+                                kLinesOfSearch * options.camera_passes);
+  TableFitOptions first = fit;
+  first.most_kinds = std::min(first.most_kinds, kFirstKinds);
+  first.starts = 1;
+  std::vector<TableFit> fits;
+  for (std::vector<TableFit>& alternatives :
+       FitAll(prior, observed, guess->camera.At(width, height), options, first, progress)) {
+    fits.push_back(std::move(alternatives.front()));
+  }
+  guess->camera = SearchCamera(prior, observed, width, height, *guess, std::move(fits),
+                               options.camera_passes, fit, progress)
+                      .camera;
+  // The search has used what was guessed; what remains is its own error.
+  guess->elevation_error = std::min(guess->elevation_error, 0.01);
+  guess->log_focal_error = std::min(guess->log_focal_error, 0.02);
+  guess->roll_error = std::min(guess->roll_error, kJointRoll);
+}
+
 // Scales all lengths of a reconstruction.
 void ScaleLengths(double factor, TableFit* fit) {
   fit->instance.size *= factor;
@@ -104,24 +129,7 @@ TableReconstruction ReconstructTable(const core::Image& photo, const Detections&
       guess.elevation_error > 0.0 || guess.log_focal_error > 0.0 || guess.roll_error > 0.0;
   TableFitOptions fit = options.fit;
   fit.log_scale_error = guess.log_height_error;
-  if (search) {
-    progress->Stage("camera", count + kLinesOfSearch * options.camera_passes);
-    TableFitOptions first = fit;
-    first.most_kinds = std::min(first.most_kinds, kFirstKinds);
-    first.starts = 1;
-    std::vector<TableFit> fits;
-    for (std::vector<TableFit>& alternatives :
-         FitAll(prior, observed, guess.camera.At(width, height), options, first, progress)) {
-      fits.push_back(std::move(alternatives.front()));
-    }
-    guess.camera = SearchCamera(prior, observed, width, height, guess, std::move(fits),
-                                options.camera_passes, fit, progress)
-                       .camera;
-    // The search has used what was guessed; what remains is its own error.
-    guess.elevation_error = std::min(guess.elevation_error, 0.01);
-    guess.log_focal_error = std::min(guess.log_focal_error, 0.02);
-    guess.roll_error = std::min(guess.roll_error, kJointRoll);
-  }
+  if (search) SearchFirstCamera(photo, observed, prior, options, fit, progress, &guess);
   progress->Stage("objects", count);
   const std::vector<std::vector<TableFit>> alternatives =
       FitAll(prior, observed, guess.camera.At(width, height), options, fit, progress);

@@ -1,28 +1,19 @@
 // Rebuilds rendered tables of library objects that no training used, and compares kinds, poses and
 // sizes with the truth.
-//   bench_twin_table [--count N] [--first N] [--camera known|unknown] [--detector FILE]
-//                    [--photos FOLDER] [--tuning] [--threads N] [--detections-only] [--settle]
-//                    [--pictures FOLDER] [--guess-only]
-// --count: tables (60), from number --first (0) on. --camera unknown: elevation, focal length, roll
-// and height are unknown, or, without a detector, guessed with errors of 4.6 degrees, 12 %, 1.1
-// degrees and 20 %; positions and yaws are then compared after a rigid alignment in the plane.
-// --detector: weights; without them the true masks are given. --tuning: instances of training
-// seeds, for choosing settings. --photos: what is behind and below the objects. --detections-only
-// rebuilds nothing. --settle: poses are compared after physics, and the twins that stand without
-// interpenetration are counted. --guess-only: only kinds, and the unknown camera as the library
-// prior guesses it, before the search. --pictures: a picture of each table, the photo beside the
-// detections.
+// --camera unknown: elevation, focal length, roll and height are unknown, or, without a detector,
+// guessed with errors of 4.6 degrees, 12 %, 1.1 degrees and 20 %; positions and yaws are then
+// compared after a rigid alignment in the plane.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include <CLI/CLI.hpp>
+
 #include "core/parallel.h"
 #include "library_fit/library_prior.h"
 #include "rl/wilson_interval.h"
@@ -45,44 +36,31 @@ constexpr double kTouching = 1e-3;  // m: a deeper interpenetration counts
 struct Options {
   int count = 60, first = 0;
   bool unknown = false, tuning = false, detections_only = false, settle = false, guess_only = false;
-  std::string detector;
-  std::filesystem::path pictures;
+  std::filesystem::path detector, pictures;
   std::vector<std::filesystem::path> photos;
 };
 
-Options Parse(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string flag = argv[i];
-    if (flag == "--tuning" || flag == "--detections-only" || flag == "--settle" ||
-        flag == "--guess-only") {
-      (flag == "--tuning"       ? options.tuning
-       : flag == "--settle"     ? options.settle
-       : flag == "--guess-only" ? options.guess_only
-                                : options.detections_only) = true;
-      continue;
-    }
-    if (i + 1 >= argc) throw core::Error("the option needs a value", flag);
-    const std::string value = argv[++i];
-    if (flag == "--count") {
-      options.count = std::atoi(value.c_str());
-    } else if (flag == "--first") {
-      options.first = std::atoi(value.c_str());
-    } else if (flag == "--camera") {
-      options.unknown = value == "unknown";
-    } else if (flag == "--detector") {
-      options.detector = value;
-    } else if (flag == "--pictures") {
-      options.pictures = value;
-    } else if (flag == "--photos") {
-      options.photos.emplace_back(value);
-    } else if (flag == "--threads") {
-      core::SetThreadCount(std::atoi(value.c_str()));
-    } else {
-      throw core::Error("no such option", flag);
-    }
-  }
-  return options;
+void AddOptions(CLI::App* app, Options* options) {
+  app->add_option("--count", options->count, "Number of tables")->capture_default_str();
+  app->add_option("--first", options->first, "Number of the first table")->capture_default_str();
+  app->add_option_function<std::string>(
+         "--camera", [options](const std::string& name) { options->unknown = name == "unknown"; },
+         "The camera is known or unknown")
+      ->check(CLI::IsMember({"known", "unknown"}))
+      ->default_str("known");
+  app->add_option("--detector", options->detector,
+                  "Weights; without them the true masks are given");
+  app->add_option("--photos", options->photos, "Pictures behind and below the objects");
+  app->add_flag("--tuning", options->tuning, "Training seeds, for choosing settings");
+  app->add_flag("--detections-only", options->detections_only, "Rebuild nothing");
+  app->add_flag("--guess-only", options->guess_only,
+                "Judge kinds, and the unknown camera as the library prior guesses it, alone");
+  app->add_flag("--settle", options->settle,
+                "Compare poses after physics, and count the twins that stand without "
+                "interpenetration");
+  app->add_option("--pictures", options->pictures,
+                  "Folder for a picture of each table, the photo beside the detections");
+  app->add_option_function<int>("--threads", core::SetThreadCount, "Number of threads");
 }
 
 struct Sums {
@@ -309,8 +287,11 @@ class TableBench {
 }  // namespace simwright::bench
 
 int main(int argc, char** argv) {
+  CLI::App app("Rebuilt tables: kinds, poses and sizes against the truth");
+  simwright::bench::Options options;
+  simwright::bench::AddOptions(&app, &options);
+  CLI11_PARSE(app, argc, argv);
   try {
-    const simwright::bench::Options options = simwright::bench::Parse(argc, argv);
     simwright::bench::TableBench(options).Run();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());

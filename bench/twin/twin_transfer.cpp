@@ -1,33 +1,25 @@
 // Picks up an object of a rendered table by a motion that was made in a twin of the table, in the
 // table itself: the motion that holds in most twins perturbed within the stated uncertainty, beside
 // one that was chosen in the twin alone.
-//   bench_twin_transfer [--count N] [--first N] [--reconstruct] [--train] [--episodes N]
-//                       [--worlds N] [--objects N] [--any-object] [--iou X] [--tuning]
-//                       [--photos FOLDER] [--keep FOLDER] [--threads N]
-// --count: tables with an object that can be picked up (20), from number --first (0) on. The twin
-// is the table itself, displaced and scaled within its uncertainty, which is that of outlines with
-// an IoU of --iou (0.92); with --reconstruct it is rebuilt from the table's picture, with the true
-// masks and the known camera. Motions are those of the scripted expert; with --train, of policies
-// trained with the twin's ranges and without randomization, at most three minutes each.
-// The object is the one that leaves the fingers most room over its uncertainty; with --any-object,
-// the first that can be picked up. If no motion holds in 90 % of the perturbed twins, the next
-// object is tried, at most --objects (1); the one with the surest motion counts. --episodes: whose
-// motions are compared (8), in --worlds perturbed twins (16). Tables are held out, with --tuning of
-// training seeds. --keep: the twins stay below that folder.
+// The twin is the table itself, displaced and scaled within its uncertainty, or is rebuilt from the
+// table's picture, with the true masks and the known camera. Motions are those of the scripted
+// expert, or of policies trained with the twin's ranges and without randomization, at most three
+// minutes each. The object is the one that leaves the fingers most room over its uncertainty. If no
+// motion holds in 90 % of the perturbed twins, the next object is tried; the one with the surest
+// motion counts.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "core/error.h"
 #include "core/files.h"
 #include "core/parallel.h"
-#include "rl/policy_file.h"
-#include "rl/training.h"
-#include "skills/observation.h"
+#include "tests/transfer/scripted_expert.h"
 #include "transfer/motion_recording.h"
 #include "transfer/pick_choice.h"
 #include "transfer/twin_ranges.h"
@@ -55,45 +47,25 @@ struct Options {
   fs::path keep;  // the twins stay there, by number; empty: nowhere
 };
 
-Options Parse(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string flag = argv[i];
-    if (flag == "--any-object") {
-      options.any_object = true;
-      continue;
-    }
-    if (flag == "--reconstruct" || flag == "--train" || flag == "--tuning") {
-      (flag == "--train"    ? options.train
-       : flag == "--tuning" ? options.tuning
-                            : options.reconstruct) = true;
-      continue;
-    }
-    if (i + 1 >= argc) throw core::Error("the option needs a value", flag);
-    const std::string value = argv[++i];
-    if (flag == "--count") {
-      options.count = std::atoi(value.c_str());
-    } else if (flag == "--first") {
-      options.first = std::atoi(value.c_str());
-    } else if (flag == "--episodes") {
-      options.episodes = std::atoi(value.c_str());
-    } else if (flag == "--worlds") {
-      options.worlds = std::atoi(value.c_str());
-    } else if (flag == "--objects") {
-      options.objects = std::atoi(value.c_str());
-    } else if (flag == "--iou") {
-      options.iou = std::atof(value.c_str());
-    } else if (flag == "--keep") {
-      options.keep = value;
-    } else if (flag == "--photos") {
-      options.photos.emplace_back(value);
-    } else if (flag == "--threads") {
-      core::SetThreadCount(std::atoi(value.c_str()));
-    } else {
-      throw core::Error("no such option", flag);
-    }
-  }
-  return options;
+void AddOptions(CLI::App* app, Options* options) {
+  app->add_option("--count", options->count, "Tables with an object that can be picked up")
+      ->capture_default_str();
+  app->add_option("--first", options->first, "Number of the first table")->capture_default_str();
+  app->add_flag("--reconstruct", options->reconstruct, "Rebuild the twin from the table's picture");
+  app->add_option("--iou", options->iou, "Agreement of the outlines that a displaced twin states")
+      ->capture_default_str();
+  app->add_flag("--train", options->train, "Motions of trained policies, not of the expert");
+  app->add_option("--episodes", options->episodes, "Episodes whose motions are compared")
+      ->capture_default_str();
+  app->add_option("--worlds", options->worlds, "Perturbed twins in which they are compared")
+      ->capture_default_str();
+  app->add_option("--objects", options->objects, "Objects of a table that are tried, at most")
+      ->capture_default_str();
+  app->add_flag("--any-object", options->any_object, "Begin with the first that can be picked up");
+  app->add_flag("--tuning", options->tuning, "Training seeds, not held-out ones");
+  app->add_option("--photos", options->photos, "Pictures behind and below the objects");
+  app->add_option("--keep", options->keep, "Folder in which the twins stay");
+  app->add_option_function<int>("--threads", core::SetThreadCount, "Number of threads");
 }
 
 // The outcome of one table.
@@ -132,24 +104,10 @@ std::vector<Pick> PicksOf(const tasks::TaskSet& set, const TransferTable& table,
   return picks;
 }
 
-// A network whose action is zero: with guided actions, the scripted expert.
-rl::Policy ZeroPolicy(const skills::Skill& skill) {
-  const int inputs = skills::Observer(skill, skill.variants.front()).size();
-  rl::Mlp::Layer layer;
-  layer.weights = Eigen::MatrixXf::Zero(inputs, 7);
-  layer.bias = Eigen::RowVectorXf::Zero(7);
-  return {rl::ObservationScale(inputs), rl::Mlp({layer}, rl::Activation::kElu),
-          Eigen::RowVectorXf::Constant(7, 0.05f)};
-}
-
-// Returns the run of a task by the scripted expert.
+// Returns the run of a task by the scripted expert, with the finger friction of training.
 workflows::SkillRun ExpertRun(const tasks::TaskSet& set, const std::string& task,
                               const fs::path& folder) {
-  workflows::SkillRun run;
-  run.folder = folder;
-  run.set = workflows::ChooseTasks(set, {task}, "tasks.json");
-  run.proved_grasps = false;
-  run.options.action = skills::ActionSpace::kGuided;
+  workflows::SkillRun run = transfer::ExpertRun(set, task, folder);
   run.options.finger_friction = workflows::TrainRequest().finger_friction;
   return run;
 }
@@ -171,7 +129,7 @@ workflows::SkillRun TrainedRun(const fs::path& tasks, const std::string& task, c
 
 std::vector<rl::Policy> PoliciesFor(const transfer::TransferTask& task, bool trained) {
   if (trained) return transfer::PoliciesOf(task);
-  return {ZeroPolicy(*task.skills().front().evaluated)};
+  return {transfer::ExpertPolicy(task)};
 }
 
 transfer::ChosenMotion Choose(const transfer::TransferTask& task,
@@ -315,8 +273,12 @@ void Run(const Options& options) {
 }  // namespace simwright::bench
 
 int main(int argc, char** argv) {
+  CLI::App app("Motions made in twins, replayed in the true tables");
+  simwright::bench::Options options;
+  simwright::bench::AddOptions(&app, &options);
+  CLI11_PARSE(app, argc, argv);
   try {
-    simwright::bench::Run(simwright::bench::Parse(argc, argv));
+    simwright::bench::Run(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 1;

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "rl/policy_file.h"
 #include "rl/training.h"
+#include "scripted_expert.h"
 #include "skills/skill_evaluation.h"
 #include "transfer/motion_choice.h"
 #include "transfer/twin_ranges.h"

@@ -111,7 +111,14 @@ TEST(RunTwin, RefusesATwinWithoutAGraspableObject) {
   const auto run = [&] { RunTwin(request, &silent); };
   EXPECT_NE(Refusal(run).find("no object of the twin can be picked up"), std::string::npos)
       << Refusal(run);
+  // The findings of the tasks stay in the run, and are made again after a stop between the two.
   request.resume = true;
+  const std::filesystem::path findings = request.output / "task_findings.json";
+  const std::string text = core::ReadFile(findings);
+  EXPECT_NE(text.find("twin-robot-placed"), std::string::npos) << text;
+  std::filesystem::remove(findings);
+  EXPECT_NE(Refusal(run).find("can be picked up"), std::string::npos) << Refusal(run);
+  EXPECT_EQ(core::ReadFile(findings), text);
   request.sigmas = 3.0;
   EXPECT_NE(Refusal(run).find("other options"), std::string::npos) << Refusal(run);
   std::filesystem::create_directories(folder.path() / "mine");
@@ -133,6 +140,26 @@ TEST(SurestPicks, BeginWithTheObjectThatLeavesTheFingersMostRoom) {
             (std::vector<std::string>{"pick_up_block_3", "pick_up_block_1", "pick_up_block_2"}));
 }
 
+TEST(TrainTask, RefusesTheRangesOfAnotherTwin) {
+  const core::TemporaryFolder folder;
+  WriteBlockTwin(folder.path() / "twin", kBlocks);
+  BlockTasks(folder.path() / "twin");
+  WriteBlockTwin(folder.path() / "other", {kBlocks[0], kBlocks[1]});
+  workflows::TrainRequest request;
+  request.task_file = folder.path() / "twin/tasks.json";
+  request.tasks = {"pick_up_block_1"};
+  request.output = folder.path() / "run";
+  request.placement_ranges = PlacementRanges(folder.path() / "other", 2.0);
+  core::Progress silent;
+  for (const bool randomized : {true, false}) {
+    request.randomized = randomized;
+    const std::string refusal = Refusal([&] { workflows::TrainTask(request, &silent); });
+    EXPECT_EQ(refusal.rfind("asset 'block_3': the twin has no object of that name", 0), 0u)
+        << refusal;
+    EXPECT_FALSE(std::filesystem::exists(request.output));
+  }
+}
+
 TEST(PlacementRanges, AreMultiplesOfTheTwinsErrors) {
   const core::TemporaryFolder folder;
   WriteBlockTwin(folder.path(), kBlocks, 0.007);
@@ -141,6 +168,8 @@ TEST(PlacementRanges, AreMultiplesOfTheTwinsErrors) {
   EXPECT_DOUBLE_EQ(ranges.at("block_2").position, 0.014);
   EXPECT_DOUBLE_EQ(ranges.at("block_2").yaw, 0.1);
   EXPECT_DOUBLE_EQ(PlacementRanges(folder.path(), 100.0).at("block_1").yaw, M_PI);
+  WriteBlockTwin(folder.path(), {});  // no ranges would mean the default ones
+  EXPECT_THROW(PlacementRanges(folder.path(), 2.0), core::Error);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST(GuessByObjects, TellsElevationAndHeight) {
     usual_error += std::abs(usual.camera.elevation - elevation) / 3.0;
     EXPECT_LT(std::abs(std::log(guess.camera.height / camera.height)), 0.45) << degrees;
     EXPECT_LT(guess.elevation_error, usual.elevation_error);
-    // What is known stays.
+    // Known numbers stay.
     TableCameraGuess known;
     known.camera.elevation = 0.3;
     known.elevation_error = known.log_height_error = 0.0;

@@ -51,6 +51,33 @@ TEST(FitOnTable, IsMetricUnderAKnownCamera) {
   }
 }
 
+// A toaster 4 cm high has walls without height above its floor, which are no solids.
+TEST(RefineOnTable, LeavesSizesThatNoSolidHas) {
+  RenderedTable table;
+  TableObject truth;
+  truth.instance = library_fit::SampleInstance(library_fit::FindFitKind("toaster"), 1'000'000'011);
+  truth.instance.size.z() = 0.055;
+  truth.visual = library_fit::InstanceMesh(truth.instance);
+  const TablePose pose{0.02, 0.9, 0.4};
+  truth.world_from_object = pose.WorldFromObject();
+  table.scene.objects.push_back(truth);
+  table.scene.table.endless = true;
+  Picture(kAbove, &table);
+  const std::vector<ObservedObject> observed =
+      ObserveObjects(table.picture.color, table.detections, 64);
+  TableFit fit;
+  fit.instance = truth.instance;
+  fit.instance.size.z() = 0.04;
+  fit.pose = pose;
+  ASSERT_THROW(library_fit::InstanceMesh(fit.instance), core::Error);
+  RefineOnTable(Prior(), observed[0], table.scene.camera, {}, &fit);
+  EXPECT_LT(fit.shape_loss, 1.0);
+  EXPECT_GT(fit.agreement.iou, 0.9);
+  EXPECT_NEAR(core::Bounds(library_fit::InstanceMesh(fit.instance).mesh).sizes().z() /
+                  core::Bounds(truth.visual.mesh).sizes().z(),
+              1.0, 0.15);
+}
+
 TEST(MovedToCamera, KeepsTheBoxInThePicture) {
   TableFit fit;
   fit.instance = library_fit::SampleInstance(library_fit::FindFitKind("jar"), 4);

@@ -92,6 +92,24 @@ TEST(MergeTables, AddsWhatTheFirstDoesNotShowAndReportsDisagreement) {
   EXPECT_EQ(MergeTables(views).objects.size(), 3u);
 }
 
+TEST(MergeTables, NamesTheAssetsThatWereFoundAgain) {
+  std::vector<TableReconstruction> views{Seen({0, 1, 2}, 0.0, {0, 0}, 1.0, 0.01),
+                                         Seen({0, 1, 2, 3}, 0.7, {0.3, 0.2}, 1.0, 0.01)};
+  views[1].objects[1].retrieved = 1;
+  views[1].objects[1].confidence = 0.9;
+  views[1].objects[3].retrieved = 0;
+  views[1].objects[3].confidence = 0.1;
+  std::vector<TableAsset> assets(2);
+  assets[0].name = "my_plate";
+  assets[1].name = "my_vase";
+  const core::Findings findings = MergeTables(views, assets).findings;
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].place, "my_plate");
+  EXPECT_EQ(findings[1].place, "my_vase");
+  EXPECT_NE(findings[1].sentence.find("bottle in photo 1, my_vase in photo 2"), std::string::npos)
+      << findings[1].sentence;
+}
+
 TEST(MergeTables, RefusesPhotosOfOtherTables) {
   EXPECT_THROW(
       MergeTables({Seen({0, 1}, 0.0, {0, 0}, 1.0, 0.01), Seen({2, 3}, 0.3, {0, 0}, 1.0, 0.01)}),

@@ -58,6 +58,22 @@ class TwinSources : public ::testing::Test {
     request->camera.upright = true;
   }
 
+  // Requests a twin of one object before kEye, known by its mask and `category`, if any.
+  TwinRequest RequestForOne(const twin::TableObject& object, const std::string& category) {
+    twin::RenderedTable table;
+    table.scene.objects.push_back(object);
+    table.scene.table.endless = true;
+    twin::Picture(kEye, &table);
+    TwinRequest request = RequestFor(table.picture.color);
+    StateCamera(&request);
+    request.objects = Path("objects.json");
+    core::WritePng(Path("mask.png"), table.detections[0].alpha);
+    core::WriteFile(request.objects,
+                    R"({"objects": [{"box": [0, 0, 320, 240], "mask": "mask.png")" +
+                        (category.empty() ? "" : R"(, "category": ")" + category + '"') + "}]}");
+    return request;
+  }
+
   std::string Refusal(const TwinRequest& request) {
     core::Progress progress;
     try {
@@ -243,6 +259,11 @@ TEST_F(TwinSources, TheProgramTakesThem) {
   EXPECT_EQ(fewer.code, 1);
   EXPECT_EQ(fewer.text.rfind("error: --depth: there are 2 photos, and 1 of these files", 0), 0u)
       << fewer.text;
+  const Outcome scale =
+      RunProgram("twin " + photo + " --depth-scale 0.0001 --quiet -o " + Path("twin").string());
+  EXPECT_EQ(scale.code, 2);
+  EXPECT_EQ(scale.text.rfind("error: --depth-scale requires --depth", 0), 0u) << scale.text;
+  EXPECT_EQ(std::count(scale.text.begin(), scale.text.end(), '\n'), 1) << scale.text;
   const Outcome replay = RunProgram("twin " + Path("photo.png").string() + " --replay " +
                                     Path("none.jsonl").string() + " -o " + Path("twin").string());
   EXPECT_EQ(replay.code, 1);
@@ -276,21 +297,10 @@ TEST_F(TwinSources, AnAssetOfTheUserIsFoundAgain) {
                Path("mine/blue_box"));
   WriteColored("mug", "mug", 1'000'000'013, {0.2f, 0.35f, 0.8f, 1.0f}, Path("mine/blue_mug"));
   const assets::Asset asset = assets::ReadAsset(Path("mine/blue_box"));
-  twin::RenderedTable table;
   twin::TableObject object;
   object.visual = asset.visual;
-  object.world_from_object.translation() = Eigen::Vector3d(0.05, 0.9, 0.0);
-  object.world_from_object.linear() =
-      Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  table.scene.objects.push_back(object);
-  table.scene.table.endless = true;
-  twin::Picture(kEye, &table);
-  TwinRequest request = RequestFor(table.picture.color);
-  StateCamera(&request);
-  request.objects = Path("objects.json");
-  core::WritePng(Path("mask.png"), table.detections[0].alpha);
-  core::WriteFile(request.objects,
-                  R"({"objects": [{"box": [0, 0, 320, 240], "mask": "mask.png"}]})");
+  object.world_from_object = twin::TablePose{0.05, 0.9, 0.6}.WorldFromObject();
+  TwinRequest request = RequestForOne(object, "");
   request.assets = {Path("mine")};
   core::Progress progress;
   const TwinOutcome outcome = MakeTwin(request, &progress);
@@ -309,26 +319,13 @@ TEST_F(TwinSources, AnAssetOfTheUserIsFoundAgain) {
 
 // The lid of an open laptop: its angle is in the record, since the asset begins closed.
 TEST_F(TwinSources, AnOpenLidIsRecorded) {
-  twin::RenderedTable table;
   twin::TableObject object;
   object.instance = library_fit::SampleInstance(library_fit::FindFitKind("laptop"), 1'000'000'015);
   object.instance.opening = 0.75;
   object.visual = library_fit::InstanceMesh(object.instance);
-  object.world_from_object.translation() = Eigen::Vector3d(0.0, 0.95, 0.0);
-  object.world_from_object.linear() =
-      Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  table.scene.objects.push_back(object);
-  table.scene.table.endless = true;
-  twin::Picture(kEye, &table);
-  TwinRequest request = RequestFor(table.picture.color);
-  StateCamera(&request);
-  request.objects = Path("objects.json");
-  core::WritePng(Path("mask.png"), table.detections[0].alpha);
-  core::WriteFile(
-      request.objects,
-      R"({"objects": [{"box": [0, 0, 320, 240], "mask": "mask.png", "category": "laptop"}]})");
+  object.world_from_object = twin::TablePose{0.0, 0.95, 0.8}.WorldFromObject();
   core::Progress progress;
-  const TwinOutcome outcome = MakeTwin(request, &progress);
+  const TwinOutcome outcome = MakeTwin(RequestForOne(object, "laptop"), &progress);
   const TwinRecord read = ReadTwin(outcome.folder);
   ASSERT_EQ(read.objects.size(), 1u);
   ASSERT_EQ(read.objects[0].joints.size(), 1u);

@@ -38,6 +38,19 @@ std::string TrainingPercent(const skills::SkillEvaluation& evaluation) {
   return text;
 }
 
+// Throws core::Error for an asset of the tasks that has no placement range, though others have one:
+// it would silently stay in its place.
+void RequirePlacementRanges(const std::map<std::string, skills::PlacementRange>& ranges,
+                            const tasks::TaskSet& set) {
+  if (ranges.empty()) return;
+  for (const tasks::TaskAsset& asset : set.assets) {
+    if (ranges.contains(asset.name)) continue;
+    throw core::Error(
+        "the twin has no object of that name, so the range of its placement is unknown",
+        "asset '" + asset.name + "'", "give the twin that the tasks are from");
+  }
+}
+
 SkillRun RunOf(const TrainRequest& request) {
   SkillRun run;
   run.folder = request.output;
@@ -49,6 +62,7 @@ SkillRun RunOf(const TrainRequest& request) {
   run.proved_grasps = request.proved_grasps && AnyAssetHasGrasps(run.set);
   run.options.episode_seconds = request.episode_seconds;
   run.options.finger_friction = request.finger_friction;
+  RequirePlacementRanges(request.placement_ranges, run.set);
   run.options.placement_ranges = request.placement_ranges;
   run.randomized = request.randomized;
   if (!run.randomized) {  // objects stay where they are, also where they are out of reach

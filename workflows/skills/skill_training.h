@@ -24,7 +24,8 @@ struct TrainRequest {
   // The friction of the fingers' surfaces, sampled per episode: from worn plastic to the rubber
   // tips of the Panda's URDF.
   skills::FactorRange finger_friction = {0.8, 2.0};
-  // The ranges of the objects' placements (SkillOptions); empty: the default ones.
+  // The ranges of the objects' placements (SkillOptions), of a twin: of all assets of the tasks.
+  // Empty: the default ones.
   std::map<std::string, skills::PlacementRange> placement_ranges = {};
   bool randomized = true;  // SkillRun::randomized
   int environments = 64;
@@ -93,8 +94,9 @@ struct TrainReport {
 // Each subtask first imitates a scripted expert, if there is one, and then uses PPO until it is
 // learnt or its time is used up; later ones mostly start from successful ends of the previous one.
 // A subtask that is already trained is kept unchanged; with `resume` an interrupted one is resumed.
-// Throws core::Error (as ChooseTasks, WriteRun, MakeSkill and TrainPolicy do, or if another process
-// trains there) and core::Cancelled, keeping all trained results.
+// Throws core::Error (as ChooseTasks, WriteRun, MakeSkill and TrainPolicy do, for placement ranges
+// that lack an asset, or if another process trains there) and core::Cancelled, keeping all trained
+// results.
 TrainReport TrainTask(const TrainRequest& request, core::Progress* progress);
 
 // Format the report for a terminal and for machines. report.json in the run's folder has the

@@ -114,20 +114,22 @@ void ReportScale(const twin::TableCameraGuess& guess, core::Findings* findings) 
                        0.0, "--camera-height or --depth give true sizes"});
 }
 
-core::Findings KindFindings(const twin::TableReconstruction& table) {
+core::Findings KindFindings(const twin::TableReconstruction& table,
+                            const std::vector<twin::TableAsset>& assets) {
   core::Findings findings;
   size_t doubtful = 0;
   for (const twin::ReconstructedObject& object : table.objects) {
     if (object.confidence >= kDoubtful) continue;
     ++doubtful;
-    const std::string& kind =
-        library_fit::FitKinds()[static_cast<size_t>(object.fit.instance.kind)].name;
-    char sentence[160];
-    std::snprintf(sentence, sizeof sentence,
-                  "object %d is doubtful: taken for a %s with confidence %.2f, outline IoU %.2f",
-                  object.detection + 1, kind.c_str(), object.confidence, object.fit.agreement.iou);
-    findings.push_back({"twin-doubtful", core::Severity::kWarning, "", sentence, object.confidence,
-                        "--objects states its box and category; --free-form reconstructs it"});
+    char numbers[64];
+    std::snprintf(numbers, sizeof numbers, "confidence %.2f, outline IoU %.2f", object.confidence,
+                  object.fit.agreement.iou);
+    findings.push_back(
+        {"twin-doubtful", core::Severity::kWarning, "",
+         "object " + std::to_string(object.detection + 1) + " is doubtful: taken for " +
+             (object.retrieved < 0 ? "a " : "the asset ") + twin::NameOf(object, assets) +
+             " with " + numbers,
+         object.confidence, "--objects states its box and category; --free-form reconstructs it"});
   }
   if (doubtful == table.objects.size()) {
     findings.push_back({"twin-no-table", core::Severity::kWarning, "",
@@ -170,7 +172,7 @@ twin::TableReconstruction Reconstruct(const TwinRequest& request, const TwinPhot
     retrieval.seed = request.seed;
     twin::RetrieveAssets(photo.rgb, detected.found, assets, retrieval, &table, progress, findings);
   }
-  report(KindFindings(table));
+  report(KindFindings(table, assets));
   ReportScale(detected.found.camera, findings);
   return table;
 }
@@ -231,7 +233,7 @@ void WriteObjects(const TwinRequest& request, const std::vector<twin::TableAsset
   if (views->size() > 1) {
     std::vector<twin::TableReconstruction> tables;
     for (const RebuiltView& view : *views) tables.push_back(view.table);
-    const twin::MergedTables merged = twin::MergeTables(tables);
+    const twin::MergedTables merged = twin::MergeTables(tables, own);
     for (size_t v = 0; v < views->size(); ++v) {
       placements[v] = TakeMerged(merged, static_cast<int>(v), &(*views)[v].table);
     }

@@ -18,6 +18,7 @@
 #include "library_fit/fitted_object.h"
 #include "library_fit/library_fit.h"
 #include "physics_params/category_resolution.h"
+#include "twin/asset_retrieval.h"
 #include "workflows/twin/twin_free_form.h"
 
 namespace simwright::workflows {
@@ -38,9 +39,7 @@ std::vector<std::string> NamesOf(const TwinAssetSources& sources,
                                  std::map<std::string, int>* count) {
   std::vector<std::string> names;
   for (const twin::ReconstructedObject& object : sources.table.objects) {
-    const std::string& base = object.retrieved >= 0
-                                  ? sources.assets[static_cast<size_t>(object.retrieved)].name
-                                  : KindOf(object).name;
+    const std::string& base = twin::NameOf(object, sources.assets);
     names.push_back(base + "_" + std::to_string(++(*count)[base]));
   }
   return names;
