@@ -2,7 +2,7 @@
 """Trains tasks of a factory that are drawn by lot, and prints how often the policies succeed.
 
     build/bin/simwright factory --theme kitchen --assets 200 --tasks 500 -o kitchen
-    python3 bench/factory/train_drawn_tasks.py kitchen [--count 10] [--decisions 100000]
+    python3 bench/factory/train_drawn_tasks.py kitchen [--count 10] [--decisions 150000]
         [--seed 1] [--seconds 8] [-o FOLDER]
 
 Each task is trained by `simwright train` for at most --decisions a subtask, so that the speed
@@ -47,7 +47,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("factory", type=pathlib.Path)
     parser.add_argument("--count", type=int, default=10)
-    parser.add_argument("--decisions", type=int, default=100_000)
+    parser.add_argument("--decisions", type=int, default=150_000)
     parser.add_argument("--seconds", type=float, default=8.0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--resume", action="store_true")
