@@ -89,6 +89,7 @@ int TrainPriors(PriorFlags flags, const CommonOptions& common) {
     flags.request.shape_options.start = workflows::ShapeWeights(flags.from);
     flags.request.view_options.start = workflows::ViewWeights(flags.from);
     library.start = workflows::LibraryWeights(flags.from);
+    detector.start = workflows::DetectorWeights(flags.from);
   }
   std::optional<core::FolderLock> lock;
   if (std::filesystem::exists(flags.request.output)) {
@@ -224,9 +225,10 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_option("--rate", flags->rate, "Learning rate")
       ->check(Positive())
-      ->default_str("8e-4 shape, 1e-3 view");
-  command->add_option("--from", flags->from,
-                      "Folder of initial weights, to fine-tune on your own catalogue");
+      ->default_str("8e-4 shape, 1e-3 view, 1.5e-3 library, 2e-3 detector");
+  command->add_option(
+      "--from", flags->from,
+      "Folder of initial weights of the priors that are trained, to fine-tune them");
   command->add_flag("--resume", flags->resume, "Resume an earlier run in the folder");
   AddCommon(command, common);
   command->callback([flags, common, run] { *run = [=] { return TrainPriors(*flags, *common); }; });

@@ -45,7 +45,7 @@ OrderedJson StoredFindingsJson(const Findings& findings) {
     entry["severity"] = kStoredSeverities[static_cast<std::size_t>(finding.severity)];
     entry["place"] = finding.place;
     entry["sentence"] = finding.sentence;
-    entry["figure"] = finding.figure;
+    entry["figure"] = std::isfinite(finding.figure) ? finding.figure : 0.0;
     if (!finding.remedy.empty()) entry["remedy"] = finding.remedy;
     list.push_back(entry);
   }

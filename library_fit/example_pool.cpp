@@ -23,7 +23,8 @@ ExamplePool::ExamplePool(const LibraryTrainingOptions& options, std::uint64_t se
 
 PriorExample ExamplePool::Make(std::uint64_t number) const {
   core::Rng rng = core::StreamRng(seed_, number);
-  if (options_.scene_example && core::Uniform(rng) < options_.scene_share) {
+  const bool has_scenes = options_.scene_example && options_.scene_share > 0.0;
+  if (has_scenes && core::Uniform(rng) < options_.scene_share) {
     return options_.scene_example(rng());
   }
   const int kind = PriorExampleKind(&rng);

@@ -14,7 +14,8 @@ namespace simwright::library_fit {
 class ExamplePool {
  public:
   // Renders the first `options.pool` pictures. Deterministic for a seed, regardless of the threads.
-  // `done` is called after each of some hundred shares of the work.
+  // `done` is called after each of some hundred shares of the work. `options` must outlive the
+  // pool.
   ExamplePool(const LibraryTrainingOptions& options, std::uint64_t seed,
               const std::function<void()>& done);
 

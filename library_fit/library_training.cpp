@@ -140,6 +140,11 @@ LibrarySums LossesOn(LibraryNetworkImpl* network, const LibraryBatch& batch) {
   return sums;
 }
 
+// Returns the share of pictures that show an instance among other objects.
+double SceneShare(const LibraryTrainingOptions& options) {
+  return options.scene_example ? options.scene_share : 0.0;
+}
+
 // Accumulates the figures of the steps until the next report.
 class LibraryMeans {
  public:
@@ -217,7 +222,9 @@ asset_lift::PriorTrainingReport TrainLibraryNetwork(
   sizes.channels = options.channels;
   sizes.features = options.features;
   LibraryNetwork network(kinds, sizes), kept(kinds, sizes);
-  if (!options.start.empty()) nn::LoadCheckpoint(options.start, "library", network.get());
+  if (!options.start.empty() && !options.trainer.resume) {
+    nn::LoadCheckpoint(options.start, "library", network.get());
+  }
   network->to(device);
   nn::Trainer trainer(network.get(), options.trainer, weights.string() + ".state");
   const int first = trainer.first_step(), steps = options.trainer.steps;
@@ -254,7 +261,9 @@ asset_lift::PriorTrainingReport TrainLibraryNetwork(
                                   {"kinds", std::to_string(kinds)},
                                   {"step", std::to_string(i + 1)},
                                   {"batch", std::to_string(options.batch)},
-                                  {"seed", std::to_string(options.seed)}};
+                                  {"seed", std::to_string(options.seed)},
+                                  {"start", options.start.filename().string()},
+                                  {"scene_share", std::to_string(SceneShare(options))}};
       card.merge(sizes.Metadata());
       nn::SaveCheckpoint(*kept, card, weights);
     }

@@ -38,13 +38,14 @@ struct LibraryTrainingOptions {
 // No training uses instances of this seed or a larger one: they are held out for evaluation.
 inline constexpr std::uint64_t kHeldOutSeed = 1'000'000'000;
 
-// Trains the library prior's network on renders of random instances of all kinds and writes the
-// averaged weights to the file `weights` every `trainer.save_every` steps; reports every 50 steps
-// and returns the last report. The metrics are the share of pictures
-// whose kind is right, the mean error of the azimuth of articulated kinds in degrees, and the mean
-// absolute error of the sizes' logarithms. Throws core::Error for invalid options and for weights
-// that cannot be written, and core::Cancelled after Ctrl-C; `trainer.resume` continues a cancelled
-// training.
+// Trains the library prior's network on renders of random instances of all kinds, and on pictures
+// of `scene_example`, and writes the averaged weights to the file `weights` every
+// `trainer.save_every` steps; reports every 50 steps and returns the last report. The metrics are
+// the share of pictures whose kind is right, the mean error of the azimuth of articulated kinds in
+// degrees, and the mean absolute error of the sizes' logarithms. Throws core::Error for invalid
+// options, for `start` weights that cannot be read or are of other sizes, and for weights that
+// cannot be written, and core::Cancelled after Ctrl-C; `trainer.resume` continues a cancelled
+// training, without `start`.
 asset_lift::PriorTrainingReport TrainLibraryNetwork(
     const LibraryTrainingOptions& options, const std::filesystem::path& weights,
     core::Progress* progress, const asset_lift::PriorTrainingListener& report = {});

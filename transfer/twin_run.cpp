@@ -1,5 +1,6 @@
 #include "transfer/twin_run.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@ namespace {
 
 constexpr const char* kRecord = "twin_run.json";
 constexpr const char* kTaskFindings = "task_findings.json";
+constexpr const char* kSkill = "skill";
 
 std::string RecordText(const TwinRunRequest& request) {
   core::Json json = {{"format", 1},
@@ -71,10 +73,14 @@ std::string ChosenTask(const TwinRunRequest& request, const tasks::TaskSet& set,
                     "choose another --task of " + file.string());
 }
 
-// Makes the tasks with their findings, or reads those of an earlier call.
+// Makes the tasks with their findings, or reads those of an earlier call. Tasks without stored
+// findings are made again, unless a policy is trained on them.
 tasks::TaskSet TasksOf(const TwinRunRequest& request, const fs::path& file,
                        core::Progress* progress, core::Findings* findings) {
   const fs::path stored = request.output / kTaskFindings;
+  if (fs::exists(file) && !fs::exists(stored) && fs::exists(request.output / kSkill)) {
+    return tasks::ReadTaskFile(file);
+  }
   if (fs::exists(file) && fs::exists(stored)) {
     const core::JsonDocument document(core::ReadFile(stored), stored.string(), "");
     *findings = core::FindingsFrom(document.root());
@@ -92,16 +98,27 @@ tasks::TaskSet TasksOf(const TwinRunRequest& request, const fs::path& file,
   return std::move(report.set);
 }
 
-double Train(const TwinRunRequest& request, const fs::path& tasks, const std::string& task,
-             core::Progress* progress) {
+workflows::TrainReport Train(const TwinRunRequest& request, const fs::path& tasks,
+                             const std::string& task, core::Progress* progress) {
   workflows::TrainRequest train = request.train;
   train.task_file = tasks;
   train.tasks = {task};
-  train.output = request.output / "skill";
+  train.output = request.output / kSkill;
   train.placement_ranges = PlacementRanges(request.twin, request.sigmas);
   train.seed = request.seed;
   train.resume = true;  // if there is an earlier state
-  return workflows::TrainTask(train, progress).success();
+  return workflows::TrainTask(train, progress);
+}
+
+// Appends the findings that are not known yet: training and check report on the same assets.
+void AddFindings(const core::Findings& more, core::Findings* findings) {
+  for (const core::Finding& finding : more) {
+    const bool known = std::any_of(findings->begin(), findings->end(), [&](const auto& other) {
+      return other.code == finding.code && other.place == finding.place &&
+             other.sentence == finding.sentence;
+    });
+    if (!known) findings->push_back(finding);
+  }
 }
 
 }  // namespace
@@ -111,10 +128,12 @@ TwinRunOutcome RunTwin(const TwinRunRequest& request, core::Progress* progress) 
   OpenRun(request);
   TwinRunOutcome outcome;
   outcome.folder = request.output;
-  const fs::path tasks = request.output / "tasks.json", skill = request.output / "skill";
+  const fs::path tasks = request.output / "tasks.json", skill = request.output / kSkill;
   const tasks::TaskSet set = TasksOf(request, tasks, progress, &outcome.findings);
   outcome.task = ChosenTask(request, set, record, tasks);
-  outcome.success = Train(request, tasks, outcome.task, progress);
+  const workflows::TrainReport trained = Train(request, tasks, outcome.task, progress);
+  outcome.success = trained.success();
+  AddFindings(trained.findings, &outcome.findings);
   workflows::RolloutRequest rollout;
   rollout.run = skill;
   rollout.episodes = 1;
@@ -135,8 +154,7 @@ TwinRunOutcome RunTwin(const TwinRunRequest& request, core::Progress* progress) 
   check.worlds = request.worlds;
   check.seed = request.seed + 1;  // other worlds than those by which the motion was chosen
   outcome.transfer = CheckTransfer(check, progress);
-  outcome.findings.insert(outcome.findings.end(), outcome.transfer.findings.begin(),
-                          outcome.transfer.findings.end());
+  AddFindings(outcome.transfer.findings, &outcome.findings);
   core::WriteFile(request.output / "report.json", TwinRunJson(outcome));
   progress->Finish();
   return outcome;

@@ -21,6 +21,7 @@ struct DetectorTrainingOptions {
   DetectorNetworkOptions network;
   TableSceneOptions scenes;
   std::uint64_t seed = 1;
+  std::filesystem::path start;  // weights from which the training starts; empty: random ones
 
   DetectorTrainingOptions();
   // Returns false for invalid values, with the reason in `error` unless it is null.
@@ -30,8 +31,9 @@ struct DetectorTrainingOptions {
 // Trains the detector's network on random scenes and writes the averaged weights to the file
 // `weights` every `trainer.save_every` steps; reports every 50 steps and returns the last report.
 // The metrics are the IoU of the objects' pixels and the mean error of the offsets in pixels.
-// Throws core::Error for invalid options and for weights that cannot be written, and
-// core::Cancelled after Ctrl-C; `trainer.resume` continues a cancelled training.
+// Throws core::Error for invalid options, for `start` weights that cannot be read or are of other
+// sizes, and for weights that cannot be written, and core::Cancelled after Ctrl-C; `trainer.resume`
+// continues a cancelled training, without `start`.
 asset_lift::PriorTrainingReport TrainDetector(const TableSceneSources& sources,
                                               const DetectorTrainingOptions& options,
                                               const std::filesystem::path& weights,

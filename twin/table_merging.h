@@ -44,9 +44,9 @@ struct MergedTables {
 // averaged in their logarithms by inverse variance, and so are positions, sizes, and yaws that
 // agree; the kind is that with the largest sum of confidences. Objects that only another photo
 // shows are added where their confidence is at least 0.25. Disagreements are findings
-// ("twin-views-disagree"), with the names of kinds and of the retrieved of `assets`. Throws
-// core::Error, which names the photo by its number, where fewer than two objects correspond.
+// ("twin-views-disagree"), which name kinds, and retrieved objects by their asset in `assets`.
+// Throws core::Error, which names the photo by its number, where fewer than two objects correspond.
 MergedTables MergeTables(const std::vector<TableReconstruction>& views,
-                         const std::vector<TableAsset>& assets = {});
+                         const std::vector<TableAsset>& assets);
 
 }  // namespace simwright::twin

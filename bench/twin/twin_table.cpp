@@ -53,11 +53,13 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--photos", options->photos, "Pictures behind and below the objects");
   app->add_flag("--tuning", options->tuning, "Training seeds, for choosing settings");
   app->add_flag("--detections-only", options->detections_only, "Rebuild nothing");
-  app->add_flag("--guess-only", options->guess_only,
-                "Judge kinds, and the unknown camera as the library prior guesses it, alone");
+  CLI::Option* guess =
+      app->add_flag("--guess-only", options->guess_only,
+                    "Judge the prior's first kinds and its guess of an unknown camera alone");
   app->add_flag("--settle", options->settle,
                 "Compare poses after physics, and count the twins that stand without "
-                "interpenetration");
+                "interpenetration")
+      ->excludes(guess);
   app->add_option("--pictures", options->pictures,
                   "Folder for a picture of each table, the photo beside the detections");
   app->add_option_function<int>("--threads", core::SetThreadCount, "Number of threads");
@@ -121,12 +123,14 @@ double Quantile(std::vector<double> values, double share) {
                          static_cast<size_t>(share * static_cast<double>(values.size())))];
 }
 
-void Print(const Sums& sums, int tables) {
+void PrintDetections(const Sums& sums) {
   const double precision = sums.found / std::max(1.0, static_cast<double>(sums.found + sums.wrong));
   const double recall = sums.found / std::max(1.0, static_cast<double>(sums.truths));
   std::printf("objects: %d, found %d, wrong detections %d; F1 %.3f\n", sums.truths, sums.found,
               sums.wrong, 2.0 * precision * recall / std::max(1e-9, precision + recall));
-  PrintShare("kind right, of those found", sums.kinds, sums.found);
+}
+
+void PrintPoses(const Sums& sums) {
   PrintShare("position within 2 cm", sums.positions, sums.found);
   PrintShare("yaw within 10 degrees", sums.yaws, sums.found);
   PrintShare("both", sums.poses, sums.found);
@@ -136,11 +140,13 @@ void Print(const Sums& sums, int tables) {
   std::printf("position error over its deviation: median %.2f, 95 %% %.2f; size: %.2f, %.2f\n",
               Quantile(sums.position_sigmas, 0.5), Quantile(sums.position_sigmas, 0.95),
               Quantile(sums.size_sigmas, 0.5), Quantile(sums.size_sigmas, 0.95));
+}
+
+void PrintCamera(const Sums& sums) {
   std::printf(
       "camera: median error of elevation %.1f degrees, focal length %.1f %%, height %.1f %%\n",
       Quantile(sums.elevation, 0.5) * 180.0 / M_PI, 100.0 * Quantile(sums.focal, 0.5),
       100.0 * Quantile(sums.height, 0.5));
-  std::printf("seconds a table: %.1f\n", sums.seconds / std::max(1, tables));
 }
 
 // Rebuilds the tables of the options.
@@ -164,7 +170,13 @@ class TableBench {
       Rebuild(number);
       std::fflush(stdout);
     }
-    Print(sums_, options_.count);
+    PrintDetections(sums_);
+    if (options_.detections_only) return;
+    PrintShare("kind right, of those found", sums_.kinds, sums_.found);
+    if (!options_.guess_only) PrintPoses(sums_);
+    PrintCamera(sums_);
+    if (options_.guess_only) return;
+    std::printf("seconds a table: %.1f\n", sums_.seconds / std::max(1, options_.count));
   }
 
  private:
@@ -185,7 +197,7 @@ class TableBench {
     const std::vector<int> matched = MatchedDetections(found.objects, truth);
     sums_.truths += static_cast<int>(truth.size());
     for (const int match : matched) (match >= 0 ? sums_.found : sums_.wrong) += 1;
-    if (options_.detections_only) PrintDetections(number, scene, found, matched, truth, indices);
+    if (options_.detections_only) PrintMatches(number, scene, found, matched, truth, indices);
     if (found.objects.empty() || options_.detections_only) {
       Keep(number, SideBySide(picture.color, DetectionsPicture(picture.color, found)));
       return;
@@ -235,10 +247,10 @@ class TableBench {
     AddCameraErrors(guess.camera, truth);
   }
 
-  static void PrintDetections(int number, const twin::TableScene& scene,
-                              const twin::Detections& found, const std::vector<int>& matched,
-                              const std::vector<twin::Detection>& truth,
-                              const std::vector<int>& indices) {
+  static void PrintMatches(int number, const twin::TableScene& scene, const twin::Detections& found,
+                           const std::vector<int>& matched,
+                           const std::vector<twin::Detection>& truth,
+                           const std::vector<int>& indices) {
     for (size_t k = 0; k < matched.size(); ++k) {
       std::printf("%d detection of confidence %.2f: %s\n", number, found.objects[k].confidence,
                   matched[k] < 0 ? "wrong" : "right");

@@ -3,9 +3,13 @@
 #include <filesystem>
 #include <string>
 
+#include <Eigen/Core>
+
 #include "rl/policy.h"
 #include "skills/observation.h"
+#include "tasks/task.h"
 #include "transfer/transfer_task.h"
+#include "workflows/skills/skill_run.h"
 
 namespace simwright::transfer {
 

@@ -48,7 +48,7 @@ TEST(MergeTables, AlignsAndAverages) {
   const Eigen::Vector2d off = Eigen::Rotation2Dd(-1.4) * Eigen::Vector2d(0.01, 0.0);
   views[1].objects[3].fit.pose.x += off.x();
   views[1].objects[3].fit.pose.y += off.y();
-  const MergedTables merged = MergeTables(views);
+  const MergedTables merged = MergeTables(views, {});
   ASSERT_EQ(merged.objects.size(), 4u);
   EXPECT_TRUE(merged.findings.empty());
   EXPECT_EQ(merged.log_scale_error, 0.0);
@@ -65,7 +65,8 @@ TEST(MergeTables, AlignsAndAverages) {
 // The first is 10 % too large, the second 10 % too small: what they share is right.
 TEST(MergeTables, AveragesUnknownScales) {
   const MergedTables merged = MergeTables({Seen({0, 1, 2}, 0.0, {0, 0}, 1.1, 0.01),
-                                           Seen({0, 1, 2}, -0.8, {-0.5, 0.4}, 1.0 / 1.1, 0.01)});
+                                           Seen({0, 1, 2}, -0.8, {-0.5, 0.4}, 1.0 / 1.1, 0.01)},
+                                          {});
   EXPECT_NEAR(merged.log_scale, -std::log(1.1), 1e-6);
   EXPECT_NEAR(merged.log_scale_error, 0.1 / std::sqrt(2.0), 1e-9);
   EXPECT_NEAR(merged.objects[1].pose.x, 0.2, 1e-6);
@@ -78,7 +79,7 @@ TEST(MergeTables, AddsWhatTheFirstDoesNotShowAndReportsDisagreement) {
                                          Seen({0, 1, 2, 3}, 0.7, {0.3, 0.2}, 1.0, 0.01)};
   views[1].objects[1].fit.instance.kind = library_fit::FindFitKind("jar");
   views[1].objects[1].confidence = 0.9;
-  const MergedTables merged = MergeTables(views);
+  const MergedTables merged = MergeTables(views, {});
   ASSERT_EQ(merged.objects.size(), 4u);
   EXPECT_EQ(merged.objects[3].view, 1);
   EXPECT_NEAR(merged.objects[3].pose.x, 0.05, 1e-6);
@@ -89,7 +90,7 @@ TEST(MergeTables, AddsWhatTheFirstDoesNotShowAndReportsDisagreement) {
             std::string::npos);
   EXPECT_EQ(merged.objects[1].view, 1);
   views[1].objects[3].confidence = 0.1;
-  EXPECT_EQ(MergeTables(views).objects.size(), 3u);
+  EXPECT_EQ(MergeTables(views, {}).objects.size(), 3u);
 }
 
 TEST(MergeTables, NamesTheAssetsThatWereFoundAgain) {
@@ -112,9 +113,9 @@ TEST(MergeTables, NamesTheAssetsThatWereFoundAgain) {
 
 TEST(MergeTables, RefusesPhotosOfOtherTables) {
   EXPECT_THROW(
-      MergeTables({Seen({0, 1}, 0.0, {0, 0}, 1.0, 0.01), Seen({2, 3}, 0.3, {0, 0}, 1.0, 0.01)}),
+      MergeTables({Seen({0, 1}, 0.0, {0, 0}, 1.0, 0.01), Seen({2, 3}, 0.3, {0, 0}, 1.0, 0.01)}, {}),
       core::Error);
-  EXPECT_THROW(MergeTables({}), core::Error);
+  EXPECT_THROW(MergeTables({}, {}), core::Error);
 }
 
 }  // namespace

@@ -123,6 +123,11 @@ TEST_F(CommandLine, TrainingRefusesWhatIsNotThere) {
   const std::string train = "prior train --parametric-only -o " + Out();
   ExpectRefused(train + " --from " + (folder_ / "none").string(), "shape_prior.pt");
   ExpectRefused(train + " --batch 4 --only view", "shape_prior.pt");  // it needs the shape prior
+  for (const char* prior : {"library", "detector"}) {
+    ExpectRefused(train + " --only " + prior + " --from " + (folder_ / "none").string(), prior);
+  }
+  ExpectRefused(train + " --photos " + (folder_ / "none").string(), "none");
+  ExpectRefused(train + " --only shape --photos " + Out(), "leave out --photos");
   ExpectRefused("prior train -o " + Out() + " " + (folder_ / "none.sh3f").string(), "none.sh3f");
 }
 

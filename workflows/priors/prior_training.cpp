@@ -12,6 +12,11 @@
 namespace simwright::workflows {
 namespace {
 
+// Returns true if a prior is trained on pictures of tables.
+bool ShowsTables(const PriorTrainingRequest& request) {
+  return request.detector || (request.library && request.library_options.scene_share > 0.0);
+}
+
 // Reports missing files before the minutes that reading takes.
 void RequireFiles(const PriorTrainingRequest& request) {
   const bool needs_meshes = request.shape || request.view || request.detector;
@@ -23,14 +28,21 @@ void RequireFiles(const PriorTrainingRequest& request) {
     }
   }
   const auto require_start = [](bool wanted, const auto& options) {
-    if (wanted && !options.start.empty() && !std::filesystem::exists(options.start)) {
+    if (wanted && !options.trainer.resume && !options.start.empty() &&
+        !std::filesystem::exists(options.start)) {
       throw core::Error("no such weights to start from", options.start.string(),
-                        "--from names a folder written by `simwright prior train`");
+                        "--from names a folder written by `simwright prior train`; --only trains "
+                        "one prior");
     }
   };
   require_start(request.shape, request.shape_options);
   require_start(request.view, request.view_options);
   require_start(request.library, request.library_options);
+  require_start(request.detector, request.detector_options);
+  if (!request.photos.empty() && !ShowsTables(request)) {
+    throw core::Error("photos are shown to the library prior and the detector alone",
+                      request.photos.front().string(), "leave out --photos");
+  }
   if (request.view && !request.shape && !std::filesystem::exists(ShapeWeights(request.output))) {
     throw core::Error("the view prior needs a shape prior", ShapeWeights(request.output),
                       "train it too, or copy one there");
@@ -53,14 +65,11 @@ asset_lift::PriorTrainingOptions WithLibrary(asset_lift::PriorTrainingOptions op
   return options;
 }
 
-asset_lift::PriorTrainingReport TrainLibraryPrior(
-    const PriorTrainingRequest& request, const std::filesystem::path& weights,
-    core::Progress* progress, const asset_lift::PriorTrainingListener& listener) {
-  twin::TableSceneSources sources;
-  sources.photos = twin::ReadScenePhotos(request.photos);
-  library_fit::LibraryTrainingOptions options = request.library_options;
+// Returns the options with crops of tables as the pictures of scenes; `sources` must outlive them.
+library_fit::LibraryTrainingOptions WithTables(library_fit::LibraryTrainingOptions options,
+                                               const twin::TableSceneSources& sources) {
   options.scene_example = [&sources](std::uint64_t seed) { return twin::TableCrop(sources, seed); };
-  return library_fit::TrainLibraryNetwork(options, weights, progress, listener);
+  return options;
 }
 
 }  // namespace
@@ -95,6 +104,8 @@ std::filesystem::path DetectorWeights(const std::filesystem::path& folder) {
 std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core::Progress* progress,
                                       const TrainedPriorListener& listener) {
   RequireFiles(request);
+  twin::TableSceneSources sources;
+  if (ShowsTables(request)) sources.photos = twin::ReadScenePhotos(request.photos);
   std::vector<core::TexturedMesh> meshes;
   for (const std::filesystem::path& path : request.catalogues) {
     if (!request.shape && !request.view && !request.detector) break;
@@ -123,12 +134,12 @@ std::vector<TrainedPrior> TrainPriors(const PriorTrainingRequest& request, core:
   }
   if (request.library) {
     const std::filesystem::path library = LibraryWeights(request.output);
-    trained.push_back({"library", library,
-                       TrainLibraryPrior(request, library, progress, named("library", library))});
+    trained.push_back(
+        {"library", library,
+         library_fit::TrainLibraryNetwork(WithTables(request.library_options, sources), library,
+                                          progress, named("library", library))});
   }
   if (request.detector) {
-    twin::TableSceneSources sources;
-    sources.photos = twin::ReadScenePhotos(request.photos);
     sources.meshes = twin::TableMeshes(std::move(meshes));
     const std::filesystem::path detector = DetectorWeights(request.output);
     trained.push_back({"detector", detector,

@@ -18,7 +18,7 @@ struct PriorTrainingRequest {
   std::filesystem::path output;  // the weights' folder
   bool shape = true;             // trains the shape prior
   bool view = true;              // trains the view prior, which uses the shape prior in the folder
-  bool library = true;           // trains the prior of the library's kinds, on the library alone
+  bool library = true;   // trains the prior of the library's kinds, on the library and `photos`
   bool detector = true;  // trains the detector of objects on tables, on the library, the small
                          // pieces of the catalogues and `photos`
   // Photos of tables, walls and rooms, or folders of them, that stand behind and below the objects;
@@ -29,7 +29,8 @@ struct PriorTrainingRequest {
   library_fit::LibraryTrainingOptions library_options;
   twin::DetectorTrainingOptions detector_options;
 
-  // Sets the options that reproduce the shipped weights.
+  // Sets the steps and rates of trainings that take hours on two cores. models/README.md has the
+  // commands of the shipped weights.
   PriorTrainingRequest();
 };
 
