@@ -153,7 +153,7 @@ void TaskTraining::Learn(size_t k) {
   Evaluate(k);
   if (ends_[k].empty() && k + 1 < skills_.size()) {
     throw core::Error("was not learnt: the next subtasks have no starts", "subtask " + skill.name,
-                      "give more --minutes, and --resume");
+                      "give more --minutes or --steps, and --resume");
   }
 }
 
