@@ -37,11 +37,10 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kHeldOut = 1'000'000'000;
 constexpr int kMostTried = 10;  // tables, over those that are wanted
 constexpr double kSigmas = 2.0;
-constexpr double kTrainingMinutes = 3.0;
 
 struct Options {
   int count = 20, first = 0, episodes = 8, worlds = 16, objects = 1;
-  double iou = 0.92;
+  double iou = 0.92, minutes = 3.0;
   bool reconstruct = false, train = false, tuning = false, any_object = false;
   std::vector<fs::path> photos;
   fs::path keep;  // the twins stay there, by number; empty: nowhere
@@ -55,6 +54,8 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--iou", options->iou, "Agreement of the outlines that a displaced twin states")
       ->capture_default_str();
   app->add_flag("--train", options->train, "Motions of trained policies, not of the expert");
+  app->add_option("--minutes", options->minutes, "Of each training, at most")
+      ->capture_default_str();
   app->add_option("--episodes", options->episodes, "Episodes whose motions are compared")
       ->capture_default_str();
   app->add_option("--worlds", options->worlds, "Perturbed twins in which they are compared")
@@ -114,12 +115,12 @@ workflows::SkillRun ExpertRun(const tasks::TaskSet& set, const std::string& task
 
 // Returns a trained run.
 workflows::SkillRun TrainedRun(const fs::path& tasks, const std::string& task, const fs::path& twin,
-                               bool randomized, const fs::path& folder) {
+                               bool randomized, const fs::path& folder, double minutes) {
   workflows::TrainRequest request;
   request.task_file = tasks;
   request.tasks = {task};
   request.output = folder;
-  request.minutes = kTrainingMinutes;
+  request.minutes = minutes;
   request.placement_ranges = transfer::PlacementRanges(twin, kSigmas);
   request.randomized = randomized;
   core::Progress silent;
@@ -148,9 +149,9 @@ void TryTask(const TransferTable& table, const tasks::TaskSet& set, const fs::pa
   const transfer::TransferWorld& truth = table.table;
   const fs::path tasks = folder / "tasks.json";
   const transfer::TransferTask task(
-      options.train
-          ? TrainedRun(tasks, outcome->task, folder, true, folder / (outcome->task + "_randomized"))
-          : ExpertRun(set, outcome->task, folder / "run"));
+      options.train ? TrainedRun(tasks, outcome->task, folder, true,
+                                 folder / (outcome->task + "_randomized"), options.minutes)
+                    : ExpertRun(set, outcome->task, folder / "run"));
   const std::vector<rl::Policy> policies = PoliciesFor(task, options.train);
   if (policies.empty()) throw core::Error("the training left no policy", folder.string());
   core::Rng rng = core::StreamRng(seed, 1);
@@ -163,8 +164,8 @@ void TryTask(const TransferTable& table, const tasks::TaskSet& set, const fs::pa
     outcome->plain_succeeds = task.Replays(truth, chosen.first_motion);
     return;
   }
-  const transfer::TransferTask plain(
-      TrainedRun(tasks, outcome->task, folder, false, folder / (outcome->task + "_plain")));
+  const transfer::TransferTask plain(TrainedRun(
+      tasks, outcome->task, folder, false, folder / (outcome->task + "_plain"), options.minutes));
   const std::vector<rl::Policy> own = PoliciesFor(plain, true);
   const transfer::ChosenMotion first = Choose(plain, own, table, folder, options, seed);
   outcome->plain = first.first;
