@@ -222,9 +222,7 @@ asset_lift::PriorTrainingReport TrainLibraryNetwork(
   sizes.channels = options.channels;
   sizes.features = options.features;
   LibraryNetwork network(kinds, sizes), kept(kinds, sizes);
-  if (!options.start.empty() && !options.trainer.resume) {
-    nn::LoadCheckpoint(options.start, "library", network.get());
-  }
+  if (!options.start.empty()) nn::LoadCheckpoint(options.start, "library", network.get());
   network->to(device);
   nn::Trainer trainer(network.get(), options.trainer, weights.string() + ".state");
   const int first = trainer.first_step(), steps = options.trainer.steps;

@@ -45,7 +45,7 @@ inline constexpr std::uint64_t kHeldOutSeed = 1'000'000'000;
 // degrees, and the mean absolute error of the sizes' logarithms. Throws core::Error for invalid
 // options, for `start` weights that cannot be read or are of other sizes, and for weights that
 // cannot be written, and core::Cancelled after Ctrl-C; `trainer.resume` continues a cancelled
-// training, without `start`.
+// training: its state takes the place of `start`.
 asset_lift::PriorTrainingReport TrainLibraryNetwork(
     const LibraryTrainingOptions& options, const std::filesystem::path& weights,
     core::Progress* progress, const asset_lift::PriorTrainingListener& report = {});

@@ -195,9 +195,7 @@ asset_lift::PriorTrainingReport TrainDetector(const TableSceneSources& sources,
   torch::manual_seed(static_cast<std::int64_t>(options.seed));
   const torch::Device device = nn::BestDevice();
   DetectorNetwork network(options.network), kept(options.network);
-  if (!options.start.empty() && !options.trainer.resume) {
-    nn::LoadCheckpoint(options.start, "table detector", network.get());
-  }
+  if (!options.start.empty()) nn::LoadCheckpoint(options.start, "table detector", network.get());
   network->to(device);
   nn::Trainer trainer(network.get(), options.trainer, weights.string() + ".state");
   const int first = trainer.first_step(), steps = options.trainer.steps;

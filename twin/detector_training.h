@@ -33,7 +33,7 @@ struct DetectorTrainingOptions {
 // The metrics are the IoU of the objects' pixels and the mean error of the offsets in pixels.
 // Throws core::Error for invalid options, for `start` weights that cannot be read or are of other
 // sizes, and for weights that cannot be written, and core::Cancelled after Ctrl-C; `trainer.resume`
-// continues a cancelled training, without `start`.
+// continues a cancelled training: its state takes the place of `start`.
 asset_lift::PriorTrainingReport TrainDetector(const TableSceneSources& sources,
                                               const DetectorTrainingOptions& options,
                                               const std::filesystem::path& weights,

@@ -28,8 +28,7 @@ void RequireFiles(const PriorTrainingRequest& request) {
     }
   }
   const auto require_start = [](bool wanted, const auto& options) {
-    if (wanted && !options.trainer.resume && !options.start.empty() &&
-        !std::filesystem::exists(options.start)) {
+    if (wanted && !options.start.empty() && !std::filesystem::exists(options.start)) {
       throw core::Error("no such weights to start from", options.start.string(),
                         "--from names a folder written by `simwright prior train`; --only trains "
                         "one prior");
