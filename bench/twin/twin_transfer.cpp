@@ -3,10 +3,10 @@
 // one that was chosen in the twin alone.
 // The twin is the table itself, displaced and scaled within its uncertainty, or is rebuilt from the
 // table's picture, with the true masks and the known camera. Motions are those of the scripted
-// expert, or of policies trained with the twin's ranges and without randomization, at most three
-// minutes each. The object is the one that leaves the fingers most room over its uncertainty. If no
-// motion holds in 90 % of the perturbed twins, the next object is tried; the one with the surest
-// motion counts.
+// expert, or of policies trained with the twin's ranges and without randomization, for the same
+// number of decisions at most. The object is the one that leaves the fingers most room over its
+// uncertainty. If no motion holds in 90 % of the perturbed twins, the next object is tried; the one
+// with the surest motion counts.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -40,7 +40,8 @@ constexpr double kSigmas = 2.0;
 
 struct Options {
   int count = 20, first = 0, episodes = 8, worlds = 16, objects = 1;
-  double iou = 0.92, minutes = 3.0;
+  double iou = 0.92;
+  std::int64_t decisions = 150'000;  // of a training's subtask
   bool reconstruct = false, train = false, tuning = false, any_object = false;
   std::vector<fs::path> photos;
   fs::path keep;  // the twins stay there, by number; empty: nowhere
@@ -54,7 +55,7 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--iou", options->iou, "Agreement of the outlines that a displaced twin states")
       ->capture_default_str();
   app->add_flag("--train", options->train, "Motions of trained policies, not of the expert");
-  app->add_option("--minutes", options->minutes, "Of each training, at most")
+  app->add_option("--decisions", options->decisions, "Of a training's subtask, at most")
       ->capture_default_str();
   app->add_option("--episodes", options->episodes, "Episodes whose motions are compared")
       ->capture_default_str();
@@ -115,12 +116,13 @@ workflows::SkillRun ExpertRun(const tasks::TaskSet& set, const std::string& task
 
 // Returns a trained run.
 workflows::SkillRun TrainedRun(const fs::path& tasks, const std::string& task, const fs::path& twin,
-                               bool randomized, const fs::path& folder, double minutes) {
+                               bool randomized, const fs::path& folder, std::int64_t decisions) {
   workflows::TrainRequest request;
   request.task_file = tasks;
   request.tasks = {task};
   request.output = folder;
-  request.minutes = minutes;
+  request.minutes = 0.0;  // the decisions alone limit it
+  request.samples = decisions;
   request.placement_ranges = transfer::PlacementRanges(twin, kSigmas);
   request.randomized = randomized;
   core::Progress silent;
@@ -150,7 +152,7 @@ void TryTask(const TransferTable& table, const tasks::TaskSet& set, const fs::pa
   const fs::path tasks = folder / "tasks.json";
   const transfer::TransferTask task(
       options.train ? TrainedRun(tasks, outcome->task, folder, true,
-                                 folder / (outcome->task + "_randomized"), options.minutes)
+                                 folder / (outcome->task + "_randomized"), options.decisions)
                     : ExpertRun(set, outcome->task, folder / "run"));
   const std::vector<rl::Policy> policies = PoliciesFor(task, options.train);
   if (policies.empty()) throw core::Error("the training left no policy", folder.string());
@@ -165,7 +167,7 @@ void TryTask(const TransferTable& table, const tasks::TaskSet& set, const fs::pa
     return;
   }
   const transfer::TransferTask plain(TrainedRun(
-      tasks, outcome->task, folder, false, folder / (outcome->task + "_plain"), options.minutes));
+      tasks, outcome->task, folder, false, folder / (outcome->task + "_plain"), options.decisions));
   const std::vector<rl::Policy> own = PoliciesFor(plain, true);
   const transfer::ChosenMotion first = Choose(plain, own, table, folder, options, seed);
   outcome->plain = first.first;
