@@ -127,18 +127,25 @@ void DifferentiablePass::TraceRow(int y, SeenPoint* seen) const {
   const int rays = camera_.width * samples;
   const Eigen::Matrix3d turn = camera_.world_from_camera.linear();
   const auto near = static_cast<float>(options_.near);
-  Eigen::Vector3f directions[RayTree::kBundle];
-  Hit hits[RayTree::kBundle];
-  for (int first = 0; first < rays; first += RayTree::kBundle) {
-    const int count = std::min(RayTree::kBundle, rays - first);
-    for (int k = 0; k < count; ++k) {
-      const int ray = first + k;
-      directions[k] =
+  PacketDirections directions;
+  PacketHits hits;
+  for (int first = 0; first < rays; first += kPacket) {
+    const int count = std::min(kPacket, rays - first);
+    for (int k = 0; k < kPacket; ++k) {
+      const int ray = first + std::min(k, count - 1);
+      const Eigen::Vector3f direction =
           (turn * RayThrough(SamplePosition(ray / samples, y, ray % samples))).cast<float>();
+      directions.x[k] = direction.x();
+      directions.y[k] = direction.y();
+      directions.z[k] = direction.z();
+      directions.valid[k] = k < count ? -1 : 0;
     }
-    tree_.IntersectBundle(origin_, directions, count, near, kFar, hits);
+    tree_.IntersectPacket(origin_, directions, near, kFar, &hits);
     for (int k = 0; k < count; ++k) {
-      seen[first + k] = {hits[k].instance, hits[k].triangle, hits[k].u, hits[k].v, hits[k].depth};
+      SeenPoint& point = seen[first + k];
+      point = {};
+      if (hits.part[k] < 0) continue;
+      point = {hits.part[k], hits.triangle[k], hits.u[k], hits.v[k], hits.depth[k]};
     }
   }
 }

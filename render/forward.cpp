@@ -1,5 +1,6 @@
 #include "render/forward.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -109,10 +110,11 @@ class Shader {
   float reach_ = 0.0f;
 };
 
-class RowRenderer {
+// Draws tiles of kTileWidth x kTileHeight pixels; the rays of a sample of each are a packet.
+class TileRenderer {
  public:
-  RowRenderer(const Scene& scene, const core::Camera& camera, const ForwardOptions& options,
-              ForwardBuffers* buffers)
+  TileRenderer(const Scene& scene, const core::Camera& camera, const ForwardOptions& options,
+               ForwardBuffers* buffers)
       : scene_(scene),
         options_(options),
         shader_(scene, options),
@@ -124,111 +126,131 @@ class RowRenderer {
     at_zero_ = turn * Eigen::Vector3d(-camera.cx / camera.fx, -camera.cy / camera.fy, 1.0);
   }
 
-  void Draw(int y) const {
-    if (options_.samples_per_side == 1) {
-      DrawSingleRays(y);
-    } else {
-      Shader::LastAlbedo albedo;
-      for (int x = 0; x < buffers_.width; ++x) DrawPixel(x, y, &albedo);
+  int rows() const { return (buffers_.height + kTileHeight - 1) / kTileHeight; }
+
+  void Draw(int row) const {
+    Tile tile;
+    tile.y = row * kTileHeight;
+    tile.height = std::min(kTileHeight, buffers_.height - tile.y);
+    for (tile.x = 0; tile.x < buffers_.width; tile.x += kTileWidth) {
+      tile.width = std::min(kTileWidth, buffers_.width - tile.x);
+      if (options_.shaded || options_.samples_per_side > 1) {
+        DrawSamples(tile);
+      } else {
+        DrawGeometry(tile);
+      }
     }
   }
 
  private:
-  // Returns the ray through image point (0, y), world; the next pixel to the right adds `per_x_`.
-  Eigen::Vector3f RowStart(double y) const { return (at_zero_ + y * per_y_).cast<float>(); }
+  static constexpr int kTileWidth = 8, kTileHeight = 2;
+  static_assert(kTileWidth * kTileHeight == kPacket);
 
-  // Returns the shading normal on the side from which the ray comes.
-  Eigen::Vector3f FacingNormal(const Hit& hit, const Eigen::Vector3f& ray) const {
-    const Eigen::Vector3f normal = scene_.ShadingNormal(hit);
-    return normal.dot(ray) > 0.0f ? OrientedNormal(hit, normal, ray) : normal;
-  }
+  // Pixels [x, x + width) x [y, y + height).
+  struct Tile {
+    int x = 0, y = 0, width = 0, height = 0;
+  };
 
-  // Orients the normal towards the camera: flips it for a back face. If the smooth normal of a
-  // front face seen at a grazing angle points away, it is moved to the horizon, not behind the
-  // face.
-  Eigen::Vector3f OrientedNormal(const Hit& hit, Eigen::Vector3f normal,
-                                 const Eigen::Vector3f& ray) const {
-    const Eigen::Matrix3f c = scene_.Corners(hit.instance, hit.triangle);
-    const Eigen::Vector3f face = (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0));
-    if (face.dot(ray) > 0.0f) normal = -normal;
-    const float away = normal.dot(ray) / ray.squaredNorm();
-    return away > 0.0f ? (normal - away * ray).stableNormalized() : normal;
-  }
+  // The sums over the samples of a tile's pixels.
+  struct TileSums {
+    Eigen::Vector3f color[kPacket];  // linear
+    int covered[kPacket] = {};
+  };
 
-  void Keep(const Hit& hit, const Eigen::Vector3f& normal, size_t at) const {
-    buffers_.depth[at] = hit.depth;
-    buffers_.normal[at] = normal;
-    buffers_.label[at] = hit.instance;
-    buffers_.triangle[at] = hit.triangle;
-  }
-
-  // With one ray per pixel, neighbouring pixels are traced in bundles.
-  void DrawSingleRays(int y) const {
-    const Eigen::Vector3f start = RowStart(y + 0.5);
-    Eigen::Vector3f rays[kRayBundle];
-    Hit hits[kRayBundle];
-    Shader::LastAlbedo albedo;
-    for (int first = 0; first < buffers_.width; first += kRayBundle) {
-      const int count = std::min(kRayBundle, buffers_.width - first);
-      for (int k = 0; k < count; ++k) {
-        rays[k] = start + (static_cast<float>(first + k) + 0.5f) * per_x_;
+  // Traces the rays through the points at (dx, dy) of the tile's pixels.
+  void Trace(const Tile& tile, double dx, double dy, PacketDirections* rays,
+             PacketHits* hits) const {
+    for (int j = 0; j < kTileHeight; ++j) {
+      const Eigen::Vector3f start = (at_zero_ + (tile.y + j + dy) * per_y_).cast<float>();
+      for (int i = 0; i < kTileWidth; ++i) {
+        const int k = j * kTileWidth + i;
+        const float x = static_cast<float>(tile.x + i) + static_cast<float>(dx);
+        rays->x[k] = start.x() + x * per_x_.x();
+        rays->y[k] = start.y() + x * per_x_.y();
+        rays->z[k] = start.z() + x * per_x_.z();
+        rays->valid[k] = i < tile.width && j < tile.height ? -1 : 0;
       }
-      scene_.IntersectBundle(origin_, rays, count, hits);
-      for (int k = 0; k < count; ++k) {
-        if (hits[k].instance < 0) continue;
-        const size_t at = buffers_.Index(first + k, y);
-        const Eigen::Vector3f normal = FacingNormal(hits[k], rays[k]);
-        Keep(hits[k], normal, at);
-        buffers_.mask[at] = 1.0f;
-        if (!options_.shaded) continue;
-        const Eigen::Vector3f point = origin_ + hits[k].depth * rays[k];
-        Store(shader_.Color({hits[k], rays[k], point, normal}, at, 0, &albedo), at, first + k, y);
+    }
+    scene_.IntersectPacket(origin_, *rays, hits);
+  }
+
+  static Eigen::Vector3f Ray(const PacketDirections& rays, int k) {
+    return {rays.x[k], rays.y[k], rays.z[k]};
+  }
+
+  // Calls body(k, at) for lane k and index `at` of each pixel of the tile.
+  template <typename Body>
+  void ForPixels(const Tile& tile, const Body& body) const {
+    for (int j = 0; j < tile.height; ++j) {
+      const size_t start = buffers_.Index(tile.x, tile.y + j);
+      for (int i = 0; i < tile.width; ++i) {
+        body(j * kTileWidth + i, start + static_cast<size_t>(i));
       }
     }
   }
 
-  // The samples of a pixel, in rows, are traced in bundles.
-  void DrawPixel(int x, int y, Shader::LastAlbedo* albedo) const {
+  // Returns the shading normal of a hit on the side from which the ray comes.
+  Eigen::Vector3f Normal(const PacketHits& hits, int k, const Eigen::Vector3f& ray) const {
+    const TriangleNormals& normals = scene_.Normals(hits.part[k], hits.triangle[k]);
+    return FacingNormal(normals.At(hits.u[k], hits.v[k]), normals.face, ray);
+  }
+
+  // One ray per pixel, without colours.
+  void DrawGeometry(const Tile& tile) const {
+    PacketDirections rays;
+    PacketHits hits;
+    Trace(tile, 0.5, 0.5, &rays, &hits);
+    ForPixels(tile, [&](int k, size_t at) {
+      const bool hit = hits.part[k] >= 0;
+      buffers_.depth[at] = hit ? hits.depth[k] : 0.0f;
+      buffers_.mask[at] = hit ? 1.0f : 0.0f;
+      buffers_.label[at] = hits.part[k];
+      buffers_.triangle[at] = hits.triangle[k];
+      buffers_.normal[at] =
+          hit ? Normal(hits, k, Ray(rays, k)) : Eigen::Vector3f(Eigen::Vector3f::Zero());
+    });
+  }
+
+  void DrawSamples(const Tile& tile) const {
     const int n = options_.samples_per_side;
-    const size_t at = buffers_.Index(x, y);
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    int covered = 0;
-    Eigen::Vector3f rays[kRayBundle];
-    Hit hits[kRayBundle];
-    for (int first = 0; first < n * n; first += kRayBundle) {
-      const int count = std::min(kRayBundle, n * n - first);
-      for (int k = 0; k < count; ++k) rays[k] = SampleRay(x, y, first + k);
-      if (count > 1) {
-        scene_.IntersectBundle(origin_, rays, count, hits);
-      } else {
-        hits[0] = scene_.Intersect(origin_, rays[0]);
-      }
-      for (int k = 0; k < count; ++k) {
-        const Hit& hit = hits[k];
-        if (hit.instance < 0) continue;
-        ++covered;
-        const bool representative = first + k == (n / 2) * n + n / 2;
-        if (!representative && !options_.shaded) continue;
-        const Eigen::Vector3f normal = FacingNormal(hit, rays[k]);
-        if (representative) Keep(hit, normal, at);
-        if (!options_.shaded) continue;
-        const Eigen::Vector3f point = origin_ + hit.depth * rays[k];
-        sum += shader_.Color({hit, rays[k], point, normal}, at, first + k, albedo);
-      }
+    PacketDirections rays;
+    PacketHits hits;
+    TileSums sums;
+    std::fill_n(sums.color, kPacket, Eigen::Vector3f::Zero());
+    Shader::LastAlbedo albedo;
+    for (int sample = 0; sample < n * n; ++sample) {
+      const bool representative = sample == (n / 2) * n + n / 2;
+      Trace(tile, (sample % n + 0.5) / n, (sample / n + 0.5) / n, &rays, &hits);
+      ForPixels(tile, [&](int k, size_t at) {
+        if (representative) {
+          buffers_.depth[at] = hits.part[k] >= 0 ? hits.depth[k] : 0.0f;
+          buffers_.label[at] = hits.part[k];
+          buffers_.triangle[at] = hits.triangle[k];
+          buffers_.normal[at].setZero();
+        }
+        if (hits.part[k] < 0) return;
+        ++sums.covered[k];
+        if (!representative && !options_.shaded) return;
+        const Eigen::Vector3f ray = Ray(rays, k), normal = Normal(hits, k, ray);
+        if (representative) buffers_.normal[at] = normal;
+        if (!options_.shaded) return;
+        const Hit hit = {hits.depth[k], hits.part[k], hits.triangle[k], hits.u[k], hits.v[k]};
+        const Eigen::Vector3f point = origin_ + hit.depth * ray;
+        sums.color[k] += shader_.Color({hit, ray, point, normal}, at, sample, &albedo);
+      });
     }
-    buffers_.mask[at] = static_cast<float>(covered) / static_cast<float>(n * n);
-    if (options_.shaded && covered > 0) Store(sum / static_cast<float>(covered), at, x, y);
+    ForPixels(tile, [&](int k, size_t at) {
+      buffers_.mask[at] = static_cast<float>(sums.covered[k]) / static_cast<float>(n * n);
+      if (options_.shaded) Store(sums.color[k], sums.covered[k], at);
+    });
   }
 
-  // Returns the ray of a pixel's sample, which are counted in rows.
-  Eigen::Vector3f SampleRay(int x, int y, int sample) const {
-    const int n = options_.samples_per_side, i = sample % n, j = sample / n;
-    return RowStart(y + (j + 0.5) / n) +
-           (static_cast<float>(x) + (static_cast<float>(i) + 0.5f) / n) * per_x_;
-  }
-
-  void Store(const Eigen::Vector3f& linear, size_t at, int x, int y) const {
-    std::uint8_t* pixel = buffers_.color.At(x, y);
+  // Stores the mean of a pixel's colours; transparent black if it has none.
+  void Store(const Eigen::Vector3f& sum, int count, size_t at) const {
+    std::uint8_t* pixel = &buffers_.color.pixels[4 * at];
+    std::fill_n(pixel, 4, 0);
+    if (count == 0) return;
+    const Eigen::Vector3f linear = sum / static_cast<float>(count);
     for (int c = 0; c < 3; ++c) {
       const float srgb = SrgbFromLinear(std::min(1.0f, linear[c]));
       pixel[c] = static_cast<std::uint8_t>(std::lround(255.0f * srgb));
@@ -247,26 +269,36 @@ class RowRenderer {
 
 }  // namespace
 
-ForwardBuffers RenderForward(const Scene& scene, const core::Camera& camera,
-                             const ForwardOptions& options) {
+void RenderForward(const Scene& scene, const core::Camera& camera, const ForwardOptions& options,
+                   ForwardBuffers* buffers) {
   if (camera.width < 1 || camera.height < 1 || options.samples_per_side < 1) {
     throw core::Error("an image needs at least one pixel and one sample per pixel");
   }
-  ForwardBuffers buffers;
-  buffers.width = camera.width;
-  buffers.height = camera.height;
-  const size_t count = static_cast<size_t>(camera.width) * camera.height;
-  buffers.depth.assign(count, 0.0f);
-  buffers.normal.assign(count, Eigen::Vector3f::Zero());
-  buffers.mask.assign(count, 0.0f);
-  buffers.label.assign(count, -1);
-  buffers.triangle.assign(count, -1);
-  if (options.shaded) buffers.color = core::Image(camera.width, camera.height, 4);
-  const RowRenderer renderer(scene, camera, options, &buffers);
-  core::ParallelFor(camera.height, [&](int y) {
+  buffers->width = camera.width;
+  buffers->height = camera.height;
+  const size_t count = static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height);
+  buffers->depth.resize(count);
+  buffers->normal.resize(count);
+  buffers->mask.resize(count);
+  buffers->label.resize(count);
+  buffers->triangle.resize(count);
+  core::Image& color = buffers->color;
+  if (!options.shaded) {
+    color = core::Image();
+  } else if (color.width != camera.width || color.height != camera.height || color.channels != 4) {
+    color = core::Image(camera.width, camera.height, 4);
+  }
+  const TileRenderer renderer(scene, camera, options, buffers);
+  core::ParallelFor(renderer.rows(), [&](int row) {
     if (options.cancellable) core::CheckCancelled();
-    renderer.Draw(y);
+    renderer.Draw(row);
   });
+}
+
+ForwardBuffers RenderForward(const Scene& scene, const core::Camera& camera,
+                             const ForwardOptions& options) {
+  ForwardBuffers buffers;
+  RenderForward(scene, camera, options, &buffers);
   return buffers;
 }
 

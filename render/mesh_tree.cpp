@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include "core/error.h"
+#include "render/embree_packet.h"
 
 namespace simwright::render {
 namespace {
@@ -13,7 +14,7 @@ class MeshTreeDevice {
  public:
   MeshTreeDevice() : device_(rtcNewDevice("threads=1")) {  // rays come from our own threads
     if (device_ == nullptr) throw core::Error("Embree cannot start");
-    wide_ = rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+    wide_ = HasWidePackets(device_);
   }
   ~MeshTreeDevice() { rtcReleaseDevice(device_); }
   RTCDevice get() const { return device_; }
@@ -29,52 +30,11 @@ const MeshTreeDevice& TheDevice() {
   return device;
 }
 
-void Trace(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHit16* rays) {
-  rtcIntersect16(valid, scene, context, rays);
-}
-void Trace(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHit8* rays) {
-  rtcIntersect8(valid, scene, context, rays);
-}
 void TraceShadow(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay16* rays) {
   rtcOccluded16(valid, scene, context, rays);
 }
 void TraceShadow(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay8* rays) {
   rtcOccluded8(valid, scene, context, rays);
-}
-
-// Traces lanes [first, first + Lanes).
-template <typename Query, int Lanes>
-void IntersectLanes(RTCScene scene, const PixelRays& rays, const PacketPixels& pixels, int first,
-                    int part, PacketHits* hits) {
-  Query query;
-  for (int k = 0; k < Lanes; ++k) {
-    const float x = pixels.x[first + k], y = pixels.y[first + k];
-    query.ray.org_x[k] = rays.origin.x();
-    query.ray.org_y[k] = rays.origin.y();
-    query.ray.org_z[k] = rays.origin.z();
-    query.ray.dir_x[k] = rays.at_zero.x() + x * rays.per_x.x() + y * rays.per_y.x();
-    query.ray.dir_y[k] = rays.at_zero.y() + x * rays.per_x.y() + y * rays.per_y.y();
-    query.ray.dir_z[k] = rays.at_zero.z() + x * rays.per_x.z() + y * rays.per_y.z();
-    query.ray.tnear[k] = 0.0f;
-    query.ray.tfar[k] = hits->depth[first + k];
-    query.ray.time[k] = 0.0f;
-    query.ray.mask[k] = ~0u;
-    query.ray.id[k] = query.ray.flags[k] = 0;
-    query.hit.geomID[k] = query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-  }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  Trace(pixels.valid + first, scene, &context, &query);
-  for (int k = 0; k < Lanes; ++k) {
-    const bool hit = query.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
-    hits->depth[first + k] = hit ? query.ray.tfar[k] : hits->depth[first + k];
-    hits->u[first + k] = hit ? query.hit.u[k] : hits->u[first + k];
-    hits->v[first + k] = hit ? query.hit.v[k] : hits->v[first + k];
-    hits->part[first + k] = hit ? part : hits->part[first + k];
-    hits->triangle[first + k] =
-        hit ? static_cast<int>(query.hit.primID[k]) : hits->triangle[first + k];
-  }
 }
 
 template <typename Query, int Lanes>
@@ -136,12 +96,15 @@ MeshTree::~MeshTree() = default;
 
 void MeshTree::Intersect(const PixelRays& rays, const PacketPixels& pixels, int part,
                          PacketHits* hits) const {
-  if (embree_->wide) {
-    IntersectLanes<RTCRayHit16, 16>(embree_->scene, rays, pixels, 0, part, hits);
-  } else {
-    IntersectLanes<RTCRayHit8, 8>(embree_->scene, rays, pixels, 0, part, hits);
-    IntersectLanes<RTCRayHit8, 8>(embree_->scene, rays, pixels, 8, part, hits);
+  PacketDirections directions;
+  for (int k = 0; k < kPacket; ++k) {
+    const float x = pixels.x[k], y = pixels.y[k];
+    directions.x[k] = rays.at_zero.x() + x * rays.per_x.x() + y * rays.per_y.x();
+    directions.y[k] = rays.at_zero.y() + x * rays.per_x.y() + y * rays.per_y.y();
+    directions.z[k] = rays.at_zero.z() + x * rays.per_x.z() + y * rays.per_y.z();
+    directions.valid[k] = pixels.valid[k];
   }
+  IntersectPacket({embree_->scene, embree_->wide, rays.origin, 0.0f, part}, directions, hits);
 }
 
 void MeshTree::Occlude(PacketShadows* shadows) const {

@@ -5,10 +5,9 @@
 
 #include <Eigen/Core>
 
-namespace simwright::render {
+#include "render/ray_packet.h"
 
-// The number of rays that are traced together: a tile of 4 x 4 pixels.
-inline constexpr int kPacket = 16;
+namespace simwright::render {
 
 // The rays of a pinhole camera in one frame: the ray through image point (x, y) leaves `origin`
 // towards `at_zero` + x * `per_x` + y * `per_y`, whose component along the optical axis is 1.
@@ -20,14 +19,6 @@ struct PixelRays {
 struct alignas(64) PacketPixels {
   float x[kPacket], y[kPacket];
   int valid[kPacket];  // -1: traced, 0: not
-};
-
-// The nearest hits of a packet.
-struct alignas(64) PacketHits {
-  float depth[kPacket];  // along the optical axis, m
-  float u[kPacket], v[kPacket];
-  int part[kPacket];  // -1: none
-  int triangle[kPacket];
 };
 
 // The shadow rays of a packet in one frame: from each point towards `direction`.

@@ -35,15 +35,9 @@ Vector3f LookAlbedo(const SurfaceLook& look, const Vector3f& base, const Vector3
 // RenderForward.
 Vector3f PartNormal(const SeenPart& part, const ShadedTriangle& triangle, float u, float v,
                     const Vector3f& ray) {
-  const Vector3f local =
-      (1.0f - u - v) * triangle.normals[0] + u * triangle.normals[1] + v * triangle.normals[2];
-  const float length = local.norm();
-  Vector3f normal = part.world_from_part * local;
-  if (length > 0.0f) normal /= length;
+  const Vector3f normal = part.world_from_part * triangle.normals.At(u, v);
   if (normal.dot(ray) <= 0.0f) return normal;
-  if ((part.world_from_part * triangle.face).dot(ray) > 0.0f) normal = -normal;
-  const float away = normal.dot(ray) / ray.squaredNorm();
-  return away > 0.0f ? (normal - away * ray).stableNormalized() : normal;
+  return FacingNormal(normal, part.world_from_part * triangle.normals.face, ray);
 }
 
 Vector3f PartAlbedo(const RigidScene& scene, const SeenPart& part, int triangle, float u, float v,

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "render/embree_packet.h"
 
 namespace simwright::render {
 namespace {
@@ -48,8 +49,7 @@ struct RayTree::Embree {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::vector<RTCGeometry> geometries;
-
-  bool dynamic = false;
+  bool dynamic = false, wide = false;
 
   // Embree keeps a refittable tree per geometry only in a dynamic scene of low build quality;
   // otherwise Embree 3.13 rebuilds. The geometry's own tree still has full quality, so rays are as
@@ -79,6 +79,7 @@ struct RayTree::Embree {
 RayTree::RayTree() : embree_(std::make_unique<Embree>()) {
   embree_->device = rtcNewDevice("threads=1");  // rays are traced from our own threads
   if (embree_->device == nullptr) throw core::Error("Embree cannot start");
+  embree_->wide = HasWidePackets(embree_->device);
   embree_->scene = rtcNewScene(embree_->device);
   embree_->SetFlags(RTC_SCENE_FLAG_NONE);
 }
@@ -133,38 +134,14 @@ Hit RayTree::Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& dir
   return Answer(query);
 }
 
-void RayTree::IntersectBundle(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions,
-                              int count, float near, float far, Hit* hits) const {
-  static_assert(kBundle == 8);
-  RTCRayHit8 query;
-  alignas(32) int valid[kBundle];
-  for (int k = 0; k < kBundle; ++k) {
-    const Eigen::Vector3f& direction = directions[std::min(k, count - 1)];
-    valid[k] = k < count ? -1 : 0;
-    query.ray.org_x[k] = origin.x();
-    query.ray.org_y[k] = origin.y();
-    query.ray.org_z[k] = origin.z();
-    query.ray.tnear[k] = near;
-    query.ray.dir_x[k] = direction.x();
-    query.ray.dir_y[k] = direction.y();
-    query.ray.dir_z[k] = direction.z();
-    query.ray.time[k] = 0.0f;
-    query.ray.tfar[k] = far;
-    query.ray.mask[k] = ~0u;
-    query.ray.id[k] = query.ray.flags[k] = 0;
-    query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-  }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect8(valid, embree_->scene, &context, &query);
-  for (int k = 0; k < count; ++k) {
-    hits[k] = {};
-    if (query.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
-    hits[k] = {query.ray.tfar[k], static_cast<int>(query.hit.geomID[k]),
-               static_cast<int>(query.hit.primID[k]), query.hit.u[k], query.hit.v[k]};
-  }
+void RayTree::IntersectPacket(const Eigen::Vector3f& origin, const PacketDirections& directions,
+                              float near, float far, PacketHits* hits) const {
+  std::fill_n(hits->depth, kPacket, far);
+  std::fill_n(hits->part, kPacket, -1);
+  std::fill_n(hits->triangle, kPacket, -1);
+  std::fill_n(hits->u, kPacket, 0.0f);
+  std::fill_n(hits->v, kPacket, 0.0f);
+  render::IntersectPacket({embree_->scene, embree_->wide, origin, near}, directions, hits);
 }
 
 Hit RayTree::IntersectIgnoring(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,

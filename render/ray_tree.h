@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "render/hit.h"
+#include "render/ray_packet.h"
 
 namespace simwright::render {
 
@@ -40,11 +41,10 @@ class RayTree {
   // Returns the nearest hit of origin + t * direction with t in (near, far).
   Hit Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near,
                 float far) const;
-  // Intersects up to eight nearby rays from one origin, twice as fast as one by one. `count`
-  // directions, `count` hits.
-  static constexpr int kBundle = 8;
-  void IntersectBundle(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions, int count,
-                       float near, float far, Hit* hits) const;
+  // Writes the hits of nearby rays from one origin, as Intersect returns them, several times
+  // faster. PacketHits::part is the geometry; untraced rays have no hit.
+  void IntersectPacket(const Eigen::Vector3f& origin, const PacketDirections& directions,
+                       float near, float far, PacketHits* hits) const;
   // Intersects while ignoring the faces `ignored`.
   Hit IntersectIgnoring(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near,
                         float far, const IgnoredFaces& ignored) const;

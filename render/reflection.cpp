@@ -10,7 +10,7 @@ namespace simwright::render {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kBand1 = 0.488603f;       // of the real basis (light.cpp)
+constexpr float kFirstBand = 0.488603f;   // of the real basis (light.cpp)
 constexpr float kLeastRoughness = 0.05f;  // keeps the lobe wider than a pixel
 constexpr float kDielectric = 0.04f;      // reflectance at an index of refraction of 1.5
 // The damping of the cosine lobe in IrradianceWeights, divided out to get the basis itself.
@@ -118,7 +118,7 @@ SpecularLight::SpecularLight(const SphericalHarmonicsLight& light) : rest_(light
   const Eigen::Vector3f along =
       light.radiance.block<3, 3>(1, 0).transpose() *
       Eigen::Vector3f(key_direction_.y(), key_direction_.z(), key_direction_.x());
-  key_irradiance_ = (along / kBand1).cwiseMax(0.0f);
+  key_irradiance_ = (along / kFirstBand).cwiseMax(0.0f);
   rest_.radiance -= basis * key_irradiance_.transpose();
 }
 

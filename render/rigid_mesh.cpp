@@ -12,7 +12,6 @@
 namespace simwright::render {
 namespace {
 
-constexpr float kSmoothEdgeCosine = 0.766f;  // 40 degrees, as in render/scene.cpp
 constexpr int kLinearSteps = 4096, kByteSteps = 16384;
 
 std::array<float, kLinearSteps + 1> MakeLinearTable() {
@@ -39,20 +38,6 @@ std::vector<Eigen::Vector3f> SinglePrecision(const std::vector<Eigen::Vector3d>&
   std::vector<Eigen::Vector3f> single;
   for (const Eigen::Vector3d& vertex : vertices) single.push_back(vertex.cast<float>());
   return single;
-}
-
-// Returns the area-weighted vertex normals, unit or zero. (N x 3)
-std::vector<Eigen::Vector3f> SmoothNormals(const std::vector<Eigen::Vector3f>& vertices,
-                                           const std::vector<Eigen::Vector3i>& triangles) {
-  std::vector<Eigen::Vector3f> normals(vertices.size(), Eigen::Vector3f::Zero());
-  for (const Eigen::Vector3i& t : triangles) {
-    const Eigen::Vector3f& a = vertices[static_cast<std::size_t>(t[0])];
-    const Eigen::Vector3f area = (vertices[static_cast<std::size_t>(t[1])] - a)
-                                     .cross(vertices[static_cast<std::size_t>(t[2])] - a);
-    for (int k = 0; k < 3; ++k) normals[static_cast<std::size_t>(t[k])] += area;
-  }
-  for (Eigen::Vector3f& normal : normals) normal.stableNormalize();
-  return normals;
 }
 
 // Returns a texture's bilinear sample, sRGB, each in [0, 1] (core::SampleTexture's first three).
@@ -91,18 +76,10 @@ RigidMesh::Content::Content(const std::vector<Eigen::Vector3f>& vertices,
                             const core::TexturedMesh& mesh)
     : tree(vertices, mesh.mesh.triangles), corner_uvs(mesh.corner_uvs), textures(mesh.textures) {
   for (const Eigen::Vector3f& vertex : vertices) bounds.extend(vertex);
-  const std::vector<Eigen::Vector3f> smooth = SmoothNormals(vertices, mesh.mesh.triangles);
   const bool colored = !mesh.triangle_material.empty();
-  for (std::size_t i = 0; i < mesh.mesh.triangles.size(); ++i) {
-    const Eigen::Vector3i& t = mesh.mesh.triangles[i];
-    const auto corner = [&](int k) { return vertices[static_cast<std::size_t>(t[k])]; };
-    ShadedTriangle& shaded = triangles.emplace_back();
-    shaded.face = (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized();
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3f& normal = smooth[static_cast<std::size_t>(t[k])];
-      shaded.normals[k] = normal.dot(shaded.face) > kSmoothEdgeCosine ? normal : shaded.face;
-    }
-    shaded.material = colored ? mesh.triangle_material[i] : 0;
+  for (const TriangleNormals& normals : NormalsOfTriangles(vertices, mesh.mesh.triangles)) {
+    const int material = colored ? mesh.triangle_material[triangles.size()] : 0;
+    triangles.push_back({normals, material});
   }
   const auto add_material = [&](const Eigen::Vector4f& color, int texture) {
     ShadedMaterial& material = materials.emplace_back();

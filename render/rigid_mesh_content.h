@@ -5,13 +5,13 @@
 #include "core/image.h"
 #include "render/mesh_tree.h"
 #include "render/rigid_mesh.h"
+#include "render/shading_normals.h"
 
 namespace simwright::render {
 
 // The shading data of a triangle.
 struct ShadedTriangle {
-  Eigen::Vector3f normals[3];  // of the corners, unit, mesh frame
-  Eigen::Vector3f face;        // unit, mesh frame; zero for a triangle without area
+  TriangleNormals normals;  // mesh frame
   int material = 0;
 };
 

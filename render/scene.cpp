@@ -13,11 +13,9 @@ struct Instance {
   const core::TexturedMesh* mesh;
   Eigen::Isometry3d world_from_mesh;
   std::vector<Eigen::Vector3f> vertices;  // (N x 3), world
-  std::vector<Eigen::Vector3f> normals;   // (N x 3), world
+  std::vector<TriangleNormals> normals;   // of the triangles, world
   const core::PbrLook* look = nullptr;
 };
-
-constexpr float kSmoothCosine = 0.766f;  // 40 degrees
 
 }  // namespace
 
@@ -30,14 +28,7 @@ struct Scene::Content {
     for (size_t i = 0; i < vertices.size(); ++i) {
       instance->vertices[i] = (instance->world_from_mesh * vertices[i]).cast<float>();
     }
-    instance->normals.assign(vertices.size(), Eigen::Vector3f::Zero());
-    for (const Eigen::Vector3i& t : instance->mesh->mesh.triangles) {
-      const Eigen::Vector3f& a = instance->vertices[t[0]];
-      const Eigen::Vector3f area =
-          (instance->vertices[t[1]] - a).cross(instance->vertices[t[2]] - a);
-      for (int k = 0; k < 3; ++k) instance->normals[t[k]] += area;
-    }
-    for (Eigen::Vector3f& normal : instance->normals) normal.stableNormalize();
+    instance->normals = NormalsOfTriangles(instance->vertices, instance->mesh->mesh.triangles);
   }
 };
 
@@ -75,10 +66,9 @@ Hit Scene::Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& direc
   return content_->tree.Intersect(origin, direction, near, far);
 }
 
-void Scene::IntersectBundle(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions,
-                            int count, Hit* hits) const {
-  static_assert(kRayBundle == RayTree::kBundle);
-  content_->tree.IntersectBundle(origin, directions, count, 0.0f, 1e30f, hits);
+void Scene::IntersectPacket(const Eigen::Vector3f& origin, const PacketDirections& directions,
+                            PacketHits* hits) const {
+  content_->tree.IntersectPacket(origin, directions, 0.0f, 1e30f, hits);
 }
 
 bool Scene::Occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near,
@@ -131,18 +121,12 @@ Eigen::Matrix3f Scene::Corners(int instance, int triangle) const {
   return corners;
 }
 
+const TriangleNormals& Scene::Normals(int instance, int triangle) const {
+  return content_->instances[static_cast<size_t>(instance)].normals[static_cast<size_t>(triangle)];
+}
+
 Eigen::Vector3f Scene::ShadingNormal(const Hit& hit) const {
-  const Instance& of = content_->instances[static_cast<size_t>(hit.instance)];
-  const Eigen::Vector3i& t = of.mesh->mesh.triangles[static_cast<size_t>(hit.triangle)];
-  const Eigen::Matrix3f c = Corners(hit.instance, hit.triangle);
-  const Eigen::Vector3f face = (c.col(1) - c.col(0)).cross(c.col(2) - c.col(0)).stableNormalized();
-  const float weights[3] = {1.0f - hit.u - hit.v, hit.u, hit.v};
-  Eigen::Vector3f smooth = Eigen::Vector3f::Zero();
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector3f& normal = of.normals[t[k]];
-    smooth += weights[k] * (normal.dot(face) > kSmoothCosine ? normal : face);
-  }
-  return smooth.stableNormalized();
+  return Normals(hit.instance, hit.triangle).At(hit.u, hit.v);
 }
 
 Eigen::Vector4f Scene::Albedo(const Hit& hit) const {

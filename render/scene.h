@@ -9,12 +9,11 @@
 #include "core/mesh.h"
 #include "core/pbr_look.h"
 #include "render/hit.h"
+#include "render/ray_packet.h"
 #include "render/reflection.h"
+#include "render/shading_normals.h"
 
 namespace simwright::render {
-
-// The largest number of rays of Scene::IntersectBundle.
-inline constexpr int kRayBundle = 8;
 
 // Meshes placed in the world for ray queries (RayTree). If vertices move (`MoveVertices`), the tree
 // is refitted, not rebuilt. Queries are const and thread-safe.
@@ -43,10 +42,10 @@ class Scene {
   // Returns the nearest hit of origin + t * direction with t in (near, far).
   Hit Intersect(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near = 0.0f,
                 float far = 1e30f) const;
-  // Writes the hits of up to kRayBundle nearby rays from one origin: those of Intersect, faster.
-  // `count` directions, `count` hits.
-  void IntersectBundle(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions, int count,
-                       Hit* hits) const;
+  // Writes the hits of nearby rays from one origin, as Intersect returns them, several times
+  // faster. PacketHits::part is the instance; untraced rays have no hit.
+  void IntersectPacket(const Eigen::Vector3f& origin, const PacketDirections& directions,
+                       PacketHits* hits) const;
   // Returns true if anything is hit with t in (near, far).
   bool Occluded(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float near,
                 float far) const;
@@ -59,6 +58,8 @@ class Scene {
   bool HasLooks() const;
   // Returns a triangle's corner positions in the world, one per column. (3 x 3)
   Eigen::Matrix3f Corners(int instance, int triangle) const;
+  // Returns the triangle's normals in the world.
+  const TriangleNormals& Normals(int instance, int triangle) const;
   // Returns the shading normal (area-weighted vertex normals where the surface is smooth within 40
   // degrees, else the face's own), unit, in the world.
   Eigen::Vector3f ShadingNormal(const Hit& hit) const;
