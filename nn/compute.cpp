@@ -17,34 +17,16 @@ __attribute__((weak)) int openblas_get_num_threads(void);
 }
 
 namespace simwright::nn {
-namespace {
-
-// A scope guard that makes matrix products of all threads single-threaded.
-class SingleThreadedProducts {
- public:
-  SingleThreadedProducts() {
-    if (openblas_set_num_threads == nullptr || openblas_get_num_threads == nullptr) return;
-    before_ = openblas_get_num_threads();
-    openblas_set_num_threads(1);
-  }
-  ~SingleThreadedProducts() {
-    if (before_ > 1) openblas_set_num_threads(before_);
-  }
-  SingleThreadedProducts(const SingleThreadedProducts&) = delete;
-  SingleThreadedProducts& operator=(const SingleThreadedProducts&) = delete;
-
- private:
-  int before_ = 0;
-};
-
-}  // namespace
 
 torch::Device BestDevice() {
   return torch::Device(torch::cuda::is_available() ? torch::kCUDA : torch::kCPU);
 }
 
 void PrepareForWork() {
-  at::set_num_threads(core::ThreadCount());
+  // at::set_num_threads would make every new thread create a pool whose threads spin: libtorch
+  // repeats the call on a thread's first loop.
+  at::get_num_threads();  // sets the thread's default, which the next line replaces
+  if (omp_set_num_threads != nullptr) omp_set_num_threads(core::ThreadCount());
   if (openblas_set_num_threads != nullptr) openblas_set_num_threads(core::ThreadCount());
   // The tensors of a step, some tens of MB, are freed at its end and needed again by the next. By
   // default glibc returns such memory to the system in between.
@@ -61,6 +43,16 @@ SingleThreadedLoops::SingleThreadedLoops() : before_(at::get_num_threads()) {
 
 SingleThreadedLoops::~SingleThreadedLoops() {
   if (omp_set_num_threads != nullptr) omp_set_num_threads(before_);
+}
+
+SingleThreadedProducts::SingleThreadedProducts() {
+  if (openblas_set_num_threads == nullptr || openblas_get_num_threads == nullptr) return;
+  before_ = openblas_get_num_threads();
+  openblas_set_num_threads(1);
+}
+
+SingleThreadedProducts::~SingleThreadedProducts() {
+  if (before_ > 1) openblas_set_num_threads(before_);
 }
 
 int ShareCount(const torch::Device& device, std::int64_t items) {

@@ -9,8 +9,9 @@ namespace simwright::nn {
 // Returns CUDA if libtorch finds it, else the CPU.
 torch::Device BestDevice();
 
-// Gives libtorch core::ThreadCount() threads (its default is one where two hyperthreads share a
-// core), and keeps memory freed by a step for the next one. Call it before heavy work.
+// Gives libtorch core::ThreadCount() threads for the loops of the calling thread (its default is
+// one where two hyperthreads share a core) and for products, and keeps memory freed by a step for
+// the next one. Call it before heavy work.
 void PrepareForWork();
 
 // A scope guard that makes libtorch's loops on the constructing thread single-threaded: waking
@@ -24,6 +25,19 @@ class SingleThreadedLoops {
 
  private:
   int before_;
+};
+
+// A scope guard that makes matrix products of all threads single-threaded. OpenBLAS's threads wait
+// for the next product with a core each.
+class SingleThreadedProducts {
+ public:
+  SingleThreadedProducts();
+  ~SingleThreadedProducts();
+  SingleThreadedProducts(const SingleThreadedProducts&) = delete;
+  SingleThreadedProducts& operator=(const SingleThreadedProducts&) = delete;
+
+ private:
+  int before_ = 0;
 };
 
 // Returns the number of shares into which to split `items` of a batch on `device`: one per CPU

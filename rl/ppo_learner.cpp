@@ -8,12 +8,13 @@
 #include "core/error.h"
 #include "nn/compute.h"
 #include "rl/generalized_advantage.h"
+#include "rl/loss_shares.h"
 
 namespace simwright::rl {
 namespace {
 
 constexpr std::uint64_t kWeightStream = 0, kShuffleStream = 2;  // 1 samples actions
-constexpr std::int64_t kRowsAtOnce = 8192;  // rows per critic evaluation, to bound its memory
+constexpr std::int64_t kRowsAtOnce = 1024;  // rows per critic evaluation of a thread
 
 core::Rng WeightRng(std::uint64_t seed) {
   return core::StreamRng(seed, kWeightStream);
@@ -27,12 +28,12 @@ double ExplainedVariance(const Samples& samples) {
   return 1.0 - (samples.returns - samples.values).var(false).item<double>() / variance;
 }
 
-void AddMeans(const PpoLoss& loss, UpdateReport* report) {
-  report->kl += loss.kl.item<double>();
-  report->policy_loss += loss.policy.item<double>();
-  report->value_loss += loss.value.item<double>();
-  report->entropy += loss.entropy.item<double>();
-  report->clipped_share += loss.clipped_share.item<double>();
+void AddMeans(const LossMeans& means, UpdateReport* report) {
+  report->kl += means.kl;
+  report->policy_loss += means.policy;
+  report->value_loss += means.value;
+  report->entropy += means.entropy;
+  report->clipped_share += means.clipped_share;
 }
 
 void Divide(double count, UpdateReport* report) {
@@ -75,13 +76,15 @@ torch::Tensor PpoLearner::Indices(const std::vector<std::int64_t>& rows) const {
 
 std::vector<float> PpoLearner::ValuesOf(const Rows& observations) const {
   const torch::NoGradGuard no_grad;
-  std::vector<float> values;
   const torch::Tensor all = OnDevice(observations);
-  for (std::int64_t first = 0; first < all.size(0); first += kRowsAtOnce) {
-    const std::int64_t count = std::min(kRowsAtOnce, all.size(0) - first);
-    const torch::Tensor part = networks_.Values(all.narrow(0, first, count)).cpu().contiguous();
-    values.insert(values.end(), part.data_ptr<float>(), part.data_ptr<float>() + count);
-  }
+  std::vector<float> values(static_cast<std::size_t>(all.size(0)));
+  const auto parts = static_cast<int>((all.size(0) + kRowsAtOnce - 1) / kRowsAtOnce);
+  nn::ForEachShare(parts, [&](int i) {
+    const nn::Share share = nn::ShareOf(all.size(0), parts, i);
+    const torch::Tensor part =
+        networks_.Values(all.narrow(0, share.first, share.count)).cpu().contiguous();
+    std::copy_n(part.data_ptr<float>(), share.count, values.data() + share.first);
+  });
   return values;
 }
 
@@ -122,7 +125,13 @@ void PpoLearner::Imitate(const Rollout& rollout, const Samples& samples,
   shown_.actions = first ? actions : torch::cat({shown_.actions, actions});
   UpdateReport ignored;
   for (int step = 0; step < options_.imitation_steps; ++step) {
-    TakeGradientStep(ComputeImitationLoss(networks_, SampleDemonstrations()), &ignored);
+    const Demonstrations sampled = SampleDemonstrations();
+    BackpropagateInShares(
+        networks_.parameters(), options_.minibatch, [&](std::int64_t first, std::int64_t rows_of) {
+          return ComputeImitationLoss(networks_, {sampled.observations.narrow(0, first, rows_of),
+                                                  sampled.actions.narrow(0, first, rows_of)});
+        });
+    TakeGradientStep(&ignored);
   }
 }
 
@@ -141,6 +150,8 @@ void PpoLearner::Shuffle(std::vector<std::int64_t>* rows) {
 }
 
 UpdateReport PpoLearner::Update(const Rollout& rollout, bool critic_alone) {
+  const nn::SingleThreadedLoops loops;
+  const nn::SingleThreadedProducts products;
   const Samples samples = Evaluate(rollout);
   const torch::Tensor old_log_std = networks_.log_std().detach().clone();
   const bool by_ppo = rollout.shown.rows() == 0 && !critic_alone;
@@ -161,12 +172,17 @@ UpdateReport PpoLearner::Update(const Rollout& rollout, bool critic_alone) {
     const torch::Tensor shuffled = Indices(rows);
     for (std::int64_t part = 0; part < parts; ++part) {
       const std::int64_t first = count * part / parts, last = count * (part + 1) / parts;
-      const Samples batch = samples.Select(shuffled.narrow(0, first, last - first));
-      const PpoLoss loss = by_ppo ? ComputePpoLoss(networks_, batch, old_log_std, options_)
-                                  : ComputeCriticLoss(networks_, batch, old_log_std, options_);
-      AddMeans(loss, &report);
-      kl += loss.kl.item<double>() / static_cast<double>(parts);
-      TakeGradientStep(loss.total, &report);
+      Samples batch = samples.Select(shuffled.narrow(0, first, last - first));
+      batch.NormalizeAdvantages();
+      const LossMeans means = BackpropagateInShares(
+          networks_.parameters(), last - first, [&](std::int64_t from, std::int64_t rows_of) {
+            const Samples share = batch.Rows(from, rows_of);
+            return by_ppo ? ComputePpoLoss(networks_, share, old_log_std, options_)
+                          : ComputeCriticLoss(networks_, share, old_log_std, options_);
+          });
+      AddMeans(means, &report);
+      kl += means.kl / static_cast<double>(parts);
+      TakeGradientStep(&report);
     }
     if (by_ppo) AdaptRate(kl, /*last=*/epoch + 1 == options_.epochs);
   }
@@ -185,11 +201,9 @@ void PpoLearner::AdaptRate(double kl, bool last) {
   }
 }
 
-void PpoLearner::TakeGradientStep(const torch::Tensor& loss, UpdateReport* report) {
+void PpoLearner::TakeGradientStep(UpdateReport* report) {
   const FlatParameters& parameters = networks_.parameters();
   torch::Tensor gradients = parameters.gradients();
-  gradients.zero_();
-  loss.backward();
   // All gradients are in one flat tensor: training on several machines would all-reduce it here.
   const double norm = gradients.norm().item<double>();
   if (!std::isfinite(norm)) {

@@ -57,7 +57,8 @@ class PpoLearner {
   // Adapts the learning rate after an epoch with mean KL divergence `kl`. Raises it only after the
   // `last` epoch: the first ones are always close to the old policy.
   void AdaptRate(double kl, bool last);
-  void TakeGradientStep(const torch::Tensor& loss, UpdateReport* report);
+  // Steps against the parameters' gradients.
+  void TakeGradientStep(UpdateReport* report);
 
   PpoOptions options_;
   torch::Device device_;

@@ -36,6 +36,17 @@ Samples Samples::Select(const torch::Tensor& indices) const {
           returns.index_select(0, indices)};
 }
 
+Samples Samples::Rows(std::int64_t first, std::int64_t count) const {
+  return {observations.narrow(0, first, count), actions.narrow(0, first, count),
+          means.narrow(0, first, count),        log_densities.narrow(0, first, count),
+          values.narrow(0, first, count),       advantages.narrow(0, first, count),
+          returns.narrow(0, first, count)};
+}
+
+void Samples::NormalizeAdvantages() {
+  advantages = (advantages - advantages.mean()) / (advantages.std(/*unbiased=*/false) + 1e-8);
+}
+
 PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,
                        const torch::Tensor& old_log_std, const PpoOptions& options) {
   const torch::Tensor means = networks.Means(batch.observations);
@@ -45,11 +56,10 @@ PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,
       -0.5 * ((batch.actions - means) * (-log_std).exp()).square().sum(1) - log_std.sum() -
       0.5 * std::log(2.0 * std::numbers::pi) * actions;
   const torch::Tensor ratio = (log_density - batch.log_densities).exp();
-  const torch::Tensor advantages = (batch.advantages - batch.advantages.mean()) /
-                                   (batch.advantages.std(/*unbiased=*/false) + 1e-8);
   const torch::Tensor clipped = ratio.clamp(1.0 - options.clip, 1.0 + options.clip);
   PpoLoss loss;
-  const torch::Tensor policy = -torch::min(ratio * advantages, clipped * advantages).mean();
+  const torch::Tensor policy =
+      -torch::min(ratio * batch.advantages, clipped * batch.advantages).mean();
   const torch::Tensor value =
       ValueLoss(networks.Values(batch.observations), batch, options.value_clip);
   const torch::Tensor entropy = GaussianEntropy(log_std, batch.actions.size(1));
@@ -64,10 +74,12 @@ PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,
   return loss;
 }
 
-torch::Tensor ComputeImitationLoss(const ActorCritic& networks, const Demonstrations& shown) {
+PpoLoss ComputeImitationLoss(const ActorCritic& networks, const Demonstrations& shown) {
   const torch::Tensor std = networks.log_std().detach().exp();
   const torch::Tensor off = (networks.Means(shown.observations) - shown.actions) / std;
-  return 0.5 * off.square().sum(1).mean();
+  PpoLoss loss;
+  loss.total = 0.5 * off.square().sum(1).mean();
+  return loss;
 }
 
 PpoLoss ComputeCriticLoss(const ActorCritic& networks, const Samples& batch,

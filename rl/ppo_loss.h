@@ -18,6 +18,10 @@ struct Samples {
 
   // Returns the samples at `indices` (int64).
   Samples Select(const torch::Tensor& indices) const;
+  // Returns samples [first, first + count), which share their memory with these.
+  Samples Rows(std::int64_t first, std::int64_t count) const;
+  // Shifts and scales the advantages to mean 0 and standard deviation 1.
+  void NormalizeAdvantages();
 };
 
 struct PpoLoss {
@@ -28,9 +32,8 @@ struct PpoLoss {
   torch::Tensor clipped_share;  // of ratios outside the clip range
 };
 
-// Computes the clipped objective (Schulman et al. 2017, equations 7 and 9) on a minibatch, whose
-// advantages are normalized to mean 0 and standard deviation 1. `old_log_std` (A): of the policy
-// that acted.
+// Computes the clipped objective (Schulman et al. 2017, equations 7 and 9), the mean over rows of a
+// minibatch whose advantages are normalized. `old_log_std` (A): of the policy that acted.
 PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,
                        const torch::Tensor& old_log_std, const PpoOptions& options);
 
@@ -42,8 +45,8 @@ struct Demonstrations {
 
 // Computes half the squared distance between the actor's means and the demonstrated actions, in
 // standard deviations: the negative log likelihood of a Gaussian of fixed width, up to a constant.
-// Scalar.
-torch::Tensor ComputeImitationLoss(const ActorCritic& networks, const Demonstrations& shown);
+// Only `total` is defined.
+PpoLoss ComputeImitationLoss(const ActorCritic& networks, const Demonstrations& shown);
 
 // Computes the critic's part of ComputePpoLoss, for phases in which the actor does not learn by
 // PPO.

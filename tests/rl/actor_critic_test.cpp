@@ -5,6 +5,7 @@
 
 #include "rl/flat_adam.h"
 #include "rl/gaussian_policy.h"
+#include "rl/loss_shares.h"
 #include "rl/orthogonal_weights.h"
 #include "rl/ppo_loss.h"
 
@@ -129,7 +130,9 @@ TEST(PpoLoss, IsThatOfThePaper) {
   const ActorCritic networks({3, 2, {16}, Activation::kTanh}, 0.4, rng, kCpu);
   PpoOptions options;
   const torch::Tensor log_std = networks.log_std().detach().clone();
-  const PpoLoss same = ComputePpoLoss(networks, SampledBy(networks, 4000, 0.0f), log_std, options);
+  Samples unmoved = SampledBy(networks, 4000, 0.0f);
+  unmoved.NormalizeAdvantages();
+  const PpoLoss same = ComputePpoLoss(networks, unmoved, log_std, options);
   EXPECT_NEAR(same.kl.item<double>(), 0.0, 1e-6);
   EXPECT_NEAR(same.policy.item<double>(), 0.0, 1e-5);  // ratio 1, advantages of mean 0
   EXPECT_NEAR(same.value.item<double>(), 0.125, 1e-6);
@@ -137,7 +140,9 @@ TEST(PpoLoss, IsThatOfThePaper) {
   EXPECT_NEAR(same.entropy.item<double>(), 2.0 * std::log(0.4 * std::sqrt(2.0 * M_PI * M_E)), 1e-5);
 
   const Samples apart = SampledBy(networks, 4000, 0.2f);
-  const PpoLoss moved = ComputePpoLoss(networks, apart, log_std, options);
+  Samples normalized = apart;
+  normalized.NormalizeAdvantages();
+  const PpoLoss moved = ComputePpoLoss(networks, normalized, log_std, options);
   // (0.2 / 0.4)^2 / 2 per dimension; and the mean of -log ratio over samples of the old policy.
   EXPECT_NEAR(moved.kl.item<double>(), 0.25, 1e-5);
   double surrogate = 0.0, log_ratio = 0.0;
@@ -158,6 +163,31 @@ TEST(PpoLoss, IsThatOfThePaper) {
   EXPECT_NEAR(moved.policy.item<double>(), -surrogate, 1e-4);
   EXPECT_NEAR(-log_ratio, 0.25, 0.03);
   EXPECT_GT(moved.clipped_share.item<double>(), 0.5);
+}
+
+TEST(LossShares, GiveTheGradientOfTheWhole) {
+  core::Rng rng(5);
+  const ActorCritic networks({3, 2, {16}, Activation::kElu}, 0.4, rng, kCpu);
+  PpoOptions options;
+  const torch::Tensor log_std = networks.log_std().detach().clone();
+  Samples batch = SampledBy(networks, 1100, 0.2f);  // five shares, of which none has 1100 / 4 rows
+  batch.NormalizeAdvantages();
+  const PpoLoss whole = ComputePpoLoss(networks, batch, log_std, options);
+  torch::Tensor gradients = networks.parameters().gradients();
+  gradients.zero_();
+  whole.total.backward();
+  const torch::Tensor expected = gradients.clone();
+  const LossMeans means = BackpropagateInShares(
+      networks.parameters(), 1100, [&](std::int64_t first, std::int64_t count) {
+        return ComputePpoLoss(networks, batch.Rows(first, count), log_std, options);
+      });
+  EXPECT_GT(expected.norm().item<double>(), 0.1);
+  EXPECT_LT((gradients - expected).abs().max().item<double>(), 1e-6);
+  EXPECT_NEAR(means.policy, whole.policy.item<double>(), 1e-6);
+  EXPECT_NEAR(means.value, whole.value.item<double>(), 1e-6);
+  EXPECT_NEAR(means.entropy, whole.entropy.item<double>(), 1e-6);
+  EXPECT_NEAR(means.kl, whole.kl.item<double>(), 1e-6);
+  EXPECT_NEAR(means.clipped_share, whole.clipped_share.item<double>(), 1e-6);
 }
 
 }  // namespace
