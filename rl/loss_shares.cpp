@@ -7,7 +7,7 @@
 namespace simwright::rl {
 namespace {
 
-constexpr std::int64_t kShareRows = 256;
+constexpr std::int64_t kShareRows = 512;
 
 // Adds `weight` times a scalar, if it is defined.
 void AddScalar(double weight, const torch::Tensor& scalar, double* sum) {
