@@ -1,9 +1,6 @@
 #include <malloc.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string_view>
@@ -12,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/findings_output.h"
 #include "cli/usage.h"
+#include "core/compute_environment.h"
 #include "core/error.h"
 #include "core/finding_text.h"
 #include "core/json.h"
@@ -92,26 +90,14 @@ int Main(int argc, char** argv) {
   return 1;
 }
 
-// Restarts the program with two environment variables that must be set before OpenMP and OpenBLAS
-// start. libtorch's threads spin while they wait, which makes networks several times slower beside
-// other work, unless OMP_WAIT_POLICY says otherwise; and OpenBLAS 0.3.21 treats processors that are
-// newer than itself like ones of 2004, four times slower than their AVX-512. The restart takes a
-// second, so only subcommands that run networks do it.
+// Restarts the program with the environment that networks need. The restart takes a second, so only
+// subcommands that run networks do it.
 void StartWithThreadsAndKernels(int argc, char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
   const std::string_view command = argc > 1 ? argv[1] : "";
-  if (command != "lift" && command != "prior" && command != "train" && command != "run" &&
-      command != "scene" && command != "twin" && command != "factory") {
-    return;
+  if (command == "lift" || command == "prior" || command == "train" || command == "run" ||
+      command == "scene" || command == "twin" || command == "factory") {
+    simwright::core::RestartWithComputeEnvironment(argv);
   }
-  setenv("OMP_WAIT_POLICY", "passive", 1);
-#if defined(__x86_64__)
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) {
-    setenv("OPENBLAS_CORETYPE", "SkylakeX", 0);
-  }
-#endif
-  execv("/proc/self/exe", argv);  // if it fails, the program continues unchanged
 }
 
 // Keeps freed memory in the process. Networks allocate and free tensors of megabytes all the time;

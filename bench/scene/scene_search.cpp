@@ -3,7 +3,6 @@
 // passes the check in both engines. Draws the curves.
 //   simwright scene generate --type dimsum --count 12 --seed 77 -o out/dimsum
 //   bench_scene_search --weights models/scenes/dimsum.pt --assets out/dimsum/assets --random
-// OPENBLAS_CORETYPE and OMP_WAIT_POLICY are set as in docs/figures.md.
 #include <cstdio>
 
 #include <CLI/CLI.hpp>

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <ctime>
+
 #include "core/parallel.h"
 
 namespace simwright::nn {
@@ -55,6 +57,24 @@ TEST(ForEachShare, GivesEachShareAThreadOfItsOwn) {
                             }),
                std::runtime_error);
   EXPECT_EQ(at::get_num_threads(), before);
+}
+
+TEST(ForEachShare, LeavesNoThreadsThatSpin) {
+#if defined(__SANITIZE_ADDRESS__) || defined(SIMWRIGHT_SANITIZED)
+  GTEST_SKIP() << "the sanitizer slows down each call";
+#endif
+  const int before = core::ThreadCount();
+  core::SetThreadCount(2);
+  PrepareForWork();
+  const torch::NoGradGuard no_gradient;
+  const std::clock_t start = std::clock();
+  for (int i = 0; i < 300; ++i) {
+    ForEachShare(2, [](int) { EXPECT_EQ(torch::ones({64}).sum().item<float>(), 64.0f); });
+  }
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  core::SetThreadCount(before);
+  // Threads of libtorch's pool that spin take a millisecond per call.
+  EXPECT_LT(seconds, 0.2);
 }
 
 TEST(ShareCount, IsOneAThreadAndAtMostOneAnItem) {
