@@ -10,7 +10,8 @@
 #
 # Other options create Python environments from PyPI: --python .venv-python, with what the Python
 # module is built with and its tests run (PyTorch and Stable-Baselines3, 5 GB); --peers .venv-peers
-# with Drake, MuJoCo, PyBullet and yourdfpy (700 MB); --usd .venv-usd with usd-core and Newton
+# with Drake, MuJoCo, PyBullet and yourdfpy (700 MB), and .venv-bench (2 GB) with the libraries that
+# bench/peers compares with; --usd .venv-usd with usd-core and Newton
 # (1 GB), which judge exported USD; --lerobot .venv-lerobot (6 GB), --robomimic
 # .venv-robomimic (6 GB) and --mcap .venv-mcap (200 MB), in which the tests of label `peers` load
 # Simwright's files. Options add up. With environments alone, no Debian package is installed.
@@ -46,7 +47,8 @@ for wanted in "$@"; do
       packages+=(dpkg-dev help2man debootstrap)
       environments+=(package)
       ;;
-    --python | --peers | --usd | --lerobot | --robomimic | --mcap) environments+=("${wanted#--}") ;;
+    --peers) environments+=(peers bench) ;;
+    --python | --usd | --lerobot | --robomimic | --mcap) environments+=("${wanted#--}") ;;
     *)
       echo "error: unknown option $wanted (use --tests, --catalogue, --fuzz, --bench, --package, --python, --peers, --usd, --lerobot, --robomimic or --mcap)" >&2
       exit 2
@@ -88,6 +90,7 @@ create_environment() {
   case $1 in
     python | peers | usd) requirements=tests/$1/requirements.txt ;;
     package) requirements=packaging/requirements.txt ;;
+    bench) requirements=bench/peers/requirements.txt ;;
     *) requirements=tests/python/peers/requirements-$1.txt ;;
   esac
   cmp -s "$requirements" "$folder/requirements.txt" && return 0
