@@ -14,6 +14,9 @@ extern "C" {
 __attribute__((weak)) void omp_set_num_threads(int count);
 __attribute__((weak)) void openblas_set_num_threads(int count);
 __attribute__((weak)) int openblas_get_num_threads(void);
+// Sets the calling thread's own number in the MKL that PyTorch's builds of libtorch contain, and
+// returns the number before.
+__attribute__((weak)) int MKL_Set_Num_Threads_Local(int count);
 }
 
 namespace simwright::nn {
@@ -39,10 +42,12 @@ void PrepareForWork() {
 // libtorch sets a thread's number of workers on first use.
 SingleThreadedLoops::SingleThreadedLoops() : before_(at::get_num_threads()) {
   if (omp_set_num_threads != nullptr) omp_set_num_threads(1);
+  if (MKL_Set_Num_Threads_Local != nullptr) mkl_before_ = MKL_Set_Num_Threads_Local(1);
 }
 
 SingleThreadedLoops::~SingleThreadedLoops() {
   if (omp_set_num_threads != nullptr) omp_set_num_threads(before_);
+  if (MKL_Set_Num_Threads_Local != nullptr) MKL_Set_Num_Threads_Local(mkl_before_);
 }
 
 SingleThreadedProducts::SingleThreadedProducts() {

@@ -14,8 +14,9 @@ torch::Device BestDevice();
 // the next one. Call it before heavy work.
 void PrepareForWork();
 
-// A scope guard that makes libtorch's loops on the constructing thread single-threaded: waking
-// another thread takes longer than a loop over some ten thousand numbers.
+// A scope guard that makes libtorch's loops, and MKL's products if libtorch has MKL, on the
+// constructing thread single-threaded: waking another thread takes longer than a loop over some ten
+// thousand numbers.
 class SingleThreadedLoops {
  public:
   SingleThreadedLoops();
@@ -24,7 +25,7 @@ class SingleThreadedLoops {
   SingleThreadedLoops& operator=(const SingleThreadedLoops&) = delete;
 
  private:
-  int before_;
+  int before_, mkl_before_ = 0;
 };
 
 // A scope guard that makes matrix products of all threads single-threaded. OpenBLAS's threads wait
