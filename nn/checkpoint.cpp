@@ -9,6 +9,8 @@ namespace simwright::nn {
 namespace {
 
 constexpr char kMetadataKey[] = "facts";
+constexpr char kScaleSuffix[] = ".row_scale";
+constexpr std::int64_t kLargeMatrix = 4096;  // elements
 
 // Encodes the metadata as lines "key=value" in a tensor of bytes: the file holds only tensors.
 torch::Tensor Packed(const CheckpointMetadata& metadata) {
@@ -39,15 +41,53 @@ CheckpointMetadata MetadataOf(const NamedTensors& tensors, const std::string& ki
   return metadata;
 }
 
+// Stores the tensor, of two or more dimensions, as 8-bit integers; a row has one index of the first
+// dimension.
+void StoreInEightBits(const std::string& name, const torch::Tensor& tensor, NamedTensors* tensors) {
+  const torch::Tensor rows = tensor.detach().to(torch::kFloat).reshape({tensor.size(0), -1});
+  const torch::Tensor scale = rows.abs().amax(1, /*keepdim=*/true) / 127.0f;
+  const torch::Tensor safe = torch::where(scale > 0.0f, scale, torch::ones_like(scale));
+  (*tensors)[name] =
+      (rows / safe).round().clamp(-127, 127).to(torch::kChar).reshape(tensor.sizes());
+  (*tensors)[name + kScaleSuffix] = scale.squeeze(1);
+}
+
+// Replaces tensors of 8-bit integers by the numbers that they stand for; removes those without a
+// scale per row.
+void ExpandEightBits(NamedTensors* tensors) {
+  for (auto entry = tensors->begin(); entry != tensors->end();) {
+    auto& [name, tensor] = *entry;
+    if (tensor.scalar_type() != torch::kChar) {
+      ++entry;
+      continue;
+    }
+    const auto scale = tensors->find(name + kScaleSuffix);
+    if (scale == tensors->end() || tensor.dim() < 1 || scale->second.numel() != tensor.size(0)) {
+      entry = tensors->erase(entry);
+      continue;
+    }
+    const torch::Tensor rows = tensor.to(torch::kFloat).reshape({tensor.size(0), -1});
+    tensor = (rows * scale->second.to(torch::kFloat).reshape({-1, 1})).reshape(tensor.sizes());
+    ++entry;
+  }
+}
+
 }  // namespace
 
 void SaveCheckpoint(const torch::nn::Module& module, const CheckpointMetadata& metadata,
-                    const std::filesystem::path& path) {
+                    const std::filesystem::path& path, StoredPrecision precision) {
   if (!metadata.contains("kind"))
     throw core::Error("a checkpoint must state its kind", path.string());
-  NamedTensors tensors;
-  CollectTensors(module, "", &tensors);
-  for (auto& [name, tensor] : tensors) tensor = tensor.detach().to(torch::kHalf);
+  NamedTensors whole, tensors;
+  CollectTensors(module, "", &whole);
+  for (const auto& [name, tensor] : whole) {
+    const bool large = tensor.dim() >= 2 && tensor.numel() >= kLargeMatrix;
+    if (precision == StoredPrecision::kEightBits && large) {
+      StoreInEightBits(name, tensor, &tensors);
+    } else {
+      tensors[name] = tensor.detach().to(torch::kHalf);
+    }
+  }
   tensors[kMetadataKey] = Packed(metadata);
   WriteTensors(tensors, path);
 }
@@ -59,8 +99,9 @@ CheckpointMetadata ReadCheckpointMetadata(const std::filesystem::path& path,
 
 CheckpointMetadata LoadCheckpoint(const std::filesystem::path& path, const std::string& kind,
                                   torch::nn::Module* module) {
-  const NamedTensors tensors = ReadTensors(path);
+  NamedTensors tensors = ReadTensors(path);
   const CheckpointMetadata metadata = MetadataOf(tensors, kind, path);
+  ExpandEightBits(&tensors);
   const std::string missing = RestoreTensors(tensors, "", module);
   if (!missing.empty()) {
     throw core::Error("has no '" + missing + "' of the network's shape", path.string(),

@@ -11,10 +11,16 @@ namespace simwright::nn {
 // The metadata of a weights file: the kind and sizes from which the network is built.
 using CheckpointMetadata = std::map<std::string, std::string>;
 
-// Writes the module's parameters and buffers in half precision, at half the size and without loss
-// of quality, to a sibling file that is renamed into place. `metadata` must contain "kind".
+enum class StoredPrecision {
+  kHalf,       // without a measured loss of quality
+  kEightBits,  // large matrices as 8-bit integers with a scale per row: within 1/254 of its largest
+};
+
+// Writes the module's parameters and buffers to a sibling file that is renamed into place.
+// `metadata` must contain "kind".
 void SaveCheckpoint(const torch::nn::Module& module, const CheckpointMetadata& metadata,
-                    const std::filesystem::path& path);
+                    const std::filesystem::path& path,
+                    StoredPrecision precision = StoredPrecision::kHalf);
 
 // Reads the metadata of a weights file before a network is built. Throws like LoadCheckpoint.
 CheckpointMetadata ReadCheckpointMetadata(const std::filesystem::path& path,

@@ -155,9 +155,9 @@ PriorTrainingReport TrainShapeNetwork(const std::vector<core::TexturedMesh>& mes
   ShapeNetwork network(sizes);
   network->to(device);
   ShapeNetwork kept(sizes);
-  const PriorTraining training{"shape",    {"volume IoU", "elevation error, deg"},
-                               0,          network.get(),
-                               kept.get(), sizes.Metadata()};
+  const PriorTraining training{
+      "shape",          {"volume IoU", "elevation error, deg"}, 0, network.get(), kept.get(),
+      sizes.Metadata(), nn::StoredPrecision::kEightBits};
   ShapeBatches batches(options);
   return TrainPrior(training, meshes, options, weights, progress, report,
                     [&](const TrainingPool& pool, int step) -> PriorBatch {

@@ -124,7 +124,7 @@ PriorTrainingReport TrainPrior(const PriorTraining& training,
                                       {"seed", std::to_string(options.seed)},
                                       {"meshes", std::to_string(meshes.size())}};
       metadata.insert(training.sizes.begin(), training.sizes.end());
-      nn::SaveCheckpoint(*training.kept, metadata, weights);
+      nn::SaveCheckpoint(*training.kept, metadata, weights, training.precision);
     }
     progress->Advance();
   }

@@ -10,6 +10,8 @@
 namespace simwright::nn {
 namespace {
 
+namespace fs = std::filesystem;
+
 UNet SmallUNet(std::uint64_t seed) {
   torch::manual_seed(seed);
   UNetOptions options;
@@ -48,6 +50,48 @@ TEST(Checkpoint, KeepsWeightsToHalfPrecisionAndSaysItsKind) {
   core::WriteFile(folder.path() / "bad.pt", "no weights");
   EXPECT_THROW(LoadCheckpoint(folder.path() / "bad.pt", "shape", read.get()), core::Error);
   EXPECT_THROW(LoadCheckpoint(folder.path() / "none.pt", "shape", read.get()), core::Error);
+}
+
+TEST(Checkpoint, KeepsLargeMatricesToEightBitsPerRow) {
+  const core::TemporaryFolder folder;
+  const fs::path half = folder.path() / "half.pt", bytes = folder.path() / "bytes.pt";
+  UNetOptions options;
+  options.channels = {32, 64};
+  UNet written(options), read(options);
+  {
+    const torch::NoGradGuard no_grad;
+    written->parameters()[0][0].zero_();  // a row without a scale
+  }
+  SaveCheckpoint(*written, {{"kind", "shape"}}, half);
+  SaveCheckpoint(*written, {{"kind", "shape"}}, bytes, StoredPrecision::kEightBits);
+  EXPECT_LT(fs::file_size(bytes), 0.6 * static_cast<double>(fs::file_size(half)));
+  LoadCheckpoint(bytes, "shape", read.get());
+  const std::vector<torch::Tensor> before = written->parameters(), after = read->parameters();
+  bool rounded = false;
+  for (size_t i = 0; i < before.size(); ++i) {
+    const torch::Tensor rows = before[i].reshape({before[i].size(0), -1});
+    const torch::Tensor off = (after[i].reshape(rows.sizes()) - rows).abs().amax(1);
+    // Half a step; small tensors are in half precision, which is finer.
+    const torch::Tensor step = rows.abs().amax(1) / 127.0;
+    EXPECT_TRUE((off <= 0.501 * step + 1e-7).all().item<bool>()) << i;
+    rounded = rounded || off.max().item<double>() > 1e-3 * rows.abs().max().item<double>();
+  }
+  EXPECT_TRUE(rounded);
+}
+
+TEST(Checkpoint, RefusesIntegersWithoutAScale) {
+  const core::TemporaryFolder folder;
+  UNetOptions options;
+  options.channels = {32, 64};
+  UNet network(options);
+  const fs::path path = folder.path() / "w.pt";
+  SaveCheckpoint(*network, {{"kind", "shape"}}, path, StoredPrecision::kEightBits);
+  NamedTensors tensors = ReadTensors(path);
+  const size_t all = tensors.size();
+  std::erase_if(tensors, [](const auto& entry) { return entry.first.ends_with(".row_scale"); });
+  ASSERT_LT(tensors.size(), all);
+  WriteTensors(tensors, path);
+  EXPECT_THROW(LoadCheckpoint(path, "shape", network.get()), core::Error);
 }
 
 TEST(Trainer, GoesOnAsIfItHadNeverStopped) {
