@@ -9,7 +9,9 @@ namespace simwright::nn {
 namespace {
 
 constexpr char kMetadataKey[] = "facts";
-constexpr char kScaleSuffix[] = ".row_scale";
+// A matrix NAME in eight bits is stored as NAME.rows8 and NAME.row_scale, so that programs that do
+// not know them find no NAME.
+constexpr char kRowsSuffix[] = ".rows8", kScaleSuffix[] = ".row_scale";
 constexpr std::int64_t kLargeMatrix = 4096;  // elements
 
 // Encodes the metadata as lines "key=value" in a tensor of bytes: the file holds only tensors.
@@ -47,29 +49,27 @@ void StoreInEightBits(const std::string& name, const torch::Tensor& tensor, Name
   const torch::Tensor rows = tensor.detach().to(torch::kFloat).reshape({tensor.size(0), -1});
   const torch::Tensor scale = rows.abs().amax(1, /*keepdim=*/true) / 127.0f;
   const torch::Tensor safe = torch::where(scale > 0.0f, scale, torch::ones_like(scale));
-  (*tensors)[name] =
+  (*tensors)[name + kRowsSuffix] =
       (rows / safe).round().clamp(-127, 127).to(torch::kChar).reshape(tensor.sizes());
   (*tensors)[name + kScaleSuffix] = scale.squeeze(1);
 }
 
-// Replaces tensors of 8-bit integers by the numbers that they stand for; removes those without a
-// scale per row.
-void ExpandEightBits(NamedTensors* tensors) {
-  for (auto entry = tensors->begin(); entry != tensors->end();) {
-    auto& [name, tensor] = *entry;
-    if (tensor.scalar_type() != torch::kChar) {
-      ++entry;
-      continue;
-    }
+// Adds the matrices that are stored in eight bits.
+void AddEightBits(NamedTensors* tensors) {
+  NamedTensors expanded;
+  for (const auto& [stored, tensor] : *tensors) {
+    if (!stored.ends_with(kRowsSuffix)) continue;
+    const std::string name = stored.substr(0, stored.size() - sizeof kRowsSuffix + 1);
     const auto scale = tensors->find(name + kScaleSuffix);
-    if (scale == tensors->end() || tensor.dim() < 1 || scale->second.numel() != tensor.size(0)) {
-      entry = tensors->erase(entry);
+    if (scale == tensors->end() || tensor.scalar_type() != torch::kChar || tensor.dim() < 1 ||
+        scale->second.numel() != tensor.size(0)) {
       continue;
     }
     const torch::Tensor rows = tensor.to(torch::kFloat).reshape({tensor.size(0), -1});
-    tensor = (rows * scale->second.to(torch::kFloat).reshape({-1, 1})).reshape(tensor.sizes());
-    ++entry;
+    expanded[name] =
+        (rows * scale->second.to(torch::kFloat).reshape({-1, 1})).reshape(tensor.sizes());
   }
+  tensors->merge(expanded);
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ CheckpointMetadata LoadCheckpoint(const std::filesystem::path& path, const std::
                                   torch::nn::Module* module) {
   NamedTensors tensors = ReadTensors(path);
   const CheckpointMetadata metadata = MetadataOf(tensors, kind, path);
-  ExpandEightBits(&tensors);
+  AddEightBits(&tensors);
   const std::string missing = RestoreTensors(tensors, "", module);
   if (!missing.empty()) {
     throw core::Error("has no '" + missing + "' of the network's shape", path.string(),

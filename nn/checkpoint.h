@@ -12,7 +12,7 @@ namespace simwright::nn {
 using CheckpointMetadata = std::map<std::string, std::string>;
 
 enum class StoredPrecision {
-  kHalf,       // without a measured loss of quality
+  kHalf,       // no loss of quality was measured
   kEightBits,  // large matrices as 8-bit integers with a scale per row: within 1/254 of its largest
 };
 

@@ -285,7 +285,8 @@ void RenderForward(const Scene& scene, const core::Camera& camera, const Forward
   core::Image& color = buffers->color;
   if (!options.shaded) {
     color = core::Image();
-  } else if (color.width != camera.width || color.height != camera.height || color.channels != 4) {
+  } else if (color.width != camera.width || color.channels != 4 ||
+             color.pixels.size() != 4 * count) {
     color = core::Image(camera.width, camera.height, 4);
   }
   const TileRenderer renderer(scene, camera, options, buffers);

@@ -37,7 +37,8 @@ struct ForwardBuffers {
   std::size_t Index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
-// Renders the scene into buffers, which keep their memory from image to image. `depth`, `normal`,
+// Renders the scene into buffers, whose memory is used again from image to image; after
+// core::Cancelled their contents are undefined. `depth`, `normal`,
 // `label` and `triangle` come from one ray per pixel, through sub-sample (N/2, N/2): the pixel's
 // centre for odd N. Tiles of pixels are traced as packets of rays and distributed over threads; the
 // buffers do not depend on their number. Throws core::Error for a camera without pixels or

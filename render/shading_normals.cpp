@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include <Eigen/Geometry>
+
 namespace simwright::render {
 namespace {
 

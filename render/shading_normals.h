@@ -9,8 +9,8 @@ namespace simwright::render {
 
 // The normals of a triangle, unit; zero for a triangle without area.
 struct TriangleNormals {
-  // Of the corners: area-weighted vertex normals where the surface is smooth within 40 degrees,
-  // else the face's own.
+  // The corners' normals: area-weighted vertex normals where the surface is smooth within 40
+  // degrees, else the face's own.
   Eigen::Vector3f corners[3];
   Eigen::Vector3f face;
 

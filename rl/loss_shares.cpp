@@ -37,6 +37,8 @@ ShareResult BackpropagateShare(double weight, const PpoLoss& loss,
 LossMeans BackpropagateInShares(
     const FlatParameters& parameters, std::int64_t rows,
     const std::function<PpoLoss(std::int64_t first, std::int64_t count)>& loss_of) {
+  const nn::SingleThreadedLoops loops;
+  const nn::SingleThreadedProducts products;
   std::vector<torch::Tensor> leaves;
   for (std::size_t i = 0; i < parameters.size(); ++i) leaves.push_back(parameters[i]);
   const bool on_cpu = parameters.values().device().is_cpu();

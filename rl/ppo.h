@@ -15,12 +15,12 @@ namespace simwright::rl {
 struct LearnerState;
 
 // Proximal policy optimization: collects rollouts in an environment and learns from them. All
-// random numbers derive from options.seed: the same seed, machine and number of threads give
-// bit-identical policies.
+// random numbers derive from options.seed: the same seed and machine give bit-identical policies,
+// for any number of threads.
 class Ppo {
  public:
-  // Resets `environment`, which must outlive this, and sets libtorch to core::ThreadCount()
-  // threads. Throws core::Error for invalid options and for an environment without size.
+  // Resets `environment`, which must outlive this, and calls nn::PrepareForWork. Throws core::Error
+  // for invalid options and for an environment without size.
   Ppo(VectorEnvironment* environment, const PpoOptions& options);
   ~Ppo();
   Ppo(const Ppo&) = delete;

@@ -13,8 +13,8 @@
 namespace simwright::rl {
 namespace {
 
-constexpr std::uint64_t kWeightStream = 0, kShuffleStream = 2;  // 1 samples actions
-constexpr std::int64_t kRowsAtOnce = 1024;  // rows per critic evaluation of a thread
+constexpr std::uint64_t kWeightStream = 0, kShuffleStream = 2;   // 1 samples actions
+constexpr std::int64_t kRowsOfThread = 1024, kRowsOfGpu = 8192;  // per evaluation of the critic
 
 core::Rng WeightRng(std::uint64_t seed) {
   return core::StreamRng(seed, kWeightStream);
@@ -78,13 +78,19 @@ std::vector<float> PpoLearner::ValuesOf(const Rows& observations) const {
   const torch::NoGradGuard no_grad;
   const torch::Tensor all = OnDevice(observations);
   std::vector<float> values(static_cast<std::size_t>(all.size(0)));
-  const auto parts = static_cast<int>((all.size(0) + kRowsAtOnce - 1) / kRowsAtOnce);
-  nn::ForEachShare(parts, [&](int i) {
+  const std::int64_t at_once = device_.is_cpu() ? kRowsOfThread : kRowsOfGpu;
+  const auto parts = static_cast<int>((all.size(0) + at_once - 1) / at_once);
+  const auto evaluate = [&](int i) {
     const nn::Share share = nn::ShareOf(all.size(0), parts, i);
     const torch::Tensor part =
         networks_.Values(all.narrow(0, share.first, share.count)).cpu().contiguous();
     std::copy_n(part.data_ptr<float>(), share.count, values.data() + share.first);
-  });
+  };
+  if (device_.is_cpu()) {
+    nn::ForEachShare(parts, evaluate);
+  } else {
+    for (int i = 0; i < parts; ++i) evaluate(i);
+  }
   return values;
 }
 
@@ -161,6 +167,7 @@ UpdateReport PpoLearner::Update(const Rollout& rollout, bool critic_alone) {
   }
   Imitate(rollout, samples, rows);
   const auto count = static_cast<std::int64_t>(rows.size());
+  if (count == 0) return NothingLearnt();
   // Minibatches of about equal size: a small remainder would normalize its advantages differently.
   const std::int64_t parts =
       std::max<std::int64_t>(1, (count + options_.minibatch / 2) / options_.minibatch);
@@ -187,6 +194,14 @@ UpdateReport PpoLearner::Update(const Rollout& rollout, bool critic_alone) {
     if (by_ppo) AdaptRate(kl, /*last=*/epoch + 1 == options_.epochs);
   }
   Divide(static_cast<double>(options_.epochs * parts), &report);
+  report.learning_rate = learning_rate_;
+  report.std = networks_.Std().mean();
+  return report;
+}
+
+UpdateReport PpoLearner::NothingLearnt() const {
+  UpdateReport report;
+  report.skipped = 1;
   report.learning_rate = learning_rate_;
   report.std = networks_.Std().mean();
   return report;

@@ -57,6 +57,8 @@ class PpoLearner {
   // Adapts the learning rate after an epoch with mean KL divergence `kl`. Raises it only after the
   // `last` epoch: the first ones are always close to the old policy.
   void AdaptRate(double kl, bool last);
+  // Returns the report of an update without a sample.
+  UpdateReport NothingLearnt() const;
   // Steps against the parameters' gradients.
   void TakeGradientStep(UpdateReport* report);
 

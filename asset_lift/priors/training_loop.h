@@ -20,7 +20,7 @@ struct PriorTraining {
   torch::nn::Module* network = nullptr;  // trained
   torch::nn::Module* kept = nullptr;     // a copy that takes the averaged weights
   nn::CheckpointMetadata sizes;          // from which a reader of the weights builds the network
-  nn::StoredPrecision precision = nn::StoredPrecision::kHalf;
+  nn::StoredPrecision precision = nn::StoredPrecision::kHalf;  // of the weights' file
 };
 
 struct PriorLoss {

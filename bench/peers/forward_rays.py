@@ -3,9 +3,10 @@
     .venv-bench/bin/python bench/peers/forward_rays.py build/bin/bench_forward_rays
 
 The same bumpy ball, camera and 512 x 512 rays; depth, facing normal, mask, instance and triangle of
-each pixel, in buffers or arrays that already exist. Rounds of the three alternate. A row has the
-medians of the wall-clock times, and the processor times of one thread. Mitsuba needs libLLVM of
-Debian's libllvm19 on processors that are newer than LLVM 15.
+each pixel. Ours go into buffers that are used again, the peers' into new arrays, as their interfaces
+have it; Open3D's normals are those of the faces. Rounds of the three alternate; a row has medians.
+The program is built with -DSIMWRIGHT_BENCH=ON. Mitsuba needs Debian's libllvm19 on processors that
+are newer than LLVM 15.
 """
 
 import argparse
@@ -153,7 +154,8 @@ def measure_peer(peer, triangles, threads, repeats):
         [sys.executable, __file__, peer.__name__, str(triangles), str(threads), str(repeats)],
         capture_output=True, text=True)
     if printed.returncode != 0:
-        sys.exit(f"error: {peer.name}: {printed.stderr.strip().splitlines()[-1]}")
+        lines = printed.stderr.strip().splitlines() or [f"exit status {printed.returncode}"]
+        sys.exit(f"error: {peer.name}: {lines[-1]}")
     return [float(number) for number in printed.stdout.split()]
 
 

@@ -41,7 +41,7 @@ constexpr double kSigmas = 2.0;
 struct Options {
   int count = 20, first = 0, episodes = 8, worlds = 16, objects = 1;
   double iou = 0.92;
-  std::int64_t decisions = 150'000;  // of a training's subtask
+  std::int64_t decisions = 150'000;  // the most of a training's subtask
   bool reconstruct = false, train = false, tuning = false, any_object = false;
   std::vector<fs::path> photos;
   fs::path keep;  // the twins stay there, by number; empty: nowhere
@@ -55,7 +55,7 @@ void AddOptions(CLI::App* app, Options* options) {
   app->add_option("--iou", options->iou, "Agreement of the outlines that a displaced twin states")
       ->capture_default_str();
   app->add_flag("--train", options->train, "Motions of trained policies, not of the expert");
-  app->add_option("--decisions", options->decisions, "Of a training's subtask, at most")
+  app->add_option("--decisions", options->decisions, "The most decisions of a training's subtask")
       ->capture_default_str();
   app->add_option("--episodes", options->episodes, "Episodes whose motions are compared")
       ->capture_default_str();

@@ -64,6 +64,8 @@ def main():
     parser.add_argument("--module", help="a folder of the sources")
     options = parser.parse_args()
     options.build = options.build.resolve()
+    if int(torch.__version__.split(".")[0]) < 2:
+        sys.exit(f"error: {torch.__version__} is not libtorch 2.x")
     commands = json.loads((options.build / "compile_commands.json").read_text())
     root = pathlib.Path(__file__).resolve().parents[2]
     sources = Sources(root)
@@ -94,7 +96,7 @@ def main():
             command = command_against(entry, header) + [entry["file"]]
             return subprocess.run(command, cwd=entry["directory"], capture_output=True, text=True)
 
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
+        with ThreadPoolExecutor(2) as pool:
             results = list(pool.map(compile_one, entries))
     failed = 0
     for entry, result in zip(entries, results):

@@ -67,7 +67,7 @@ TEST(Forward, CoverageIsTheAreaToAFractionOfAPixel) {
   EXPECT_NEAR(area, 25.15 * 25.15, 0.02 * 25.15 * 25.15);
 }
 
-TEST(Forward, BundledRaysHitWhatSingleRaysHit) {
+TEST(Forward, PacketsHitWhatSingleRaysHit) {
   const core::TexturedMesh far = ForwardSquare(3.0, 0.0), near = ForwardSquare(1.0, 0.5);
   Scene scene;
   scene.Add(&far);
@@ -88,6 +88,40 @@ TEST(Forward, BundledRaysHitWhatSingleRaysHit) {
       EXPECT_NEAR(buffers.depth[at], hit.depth, 1e-6f);
     }
   }
+}
+
+void ExpectEqual(const ForwardBuffers& a, const ForwardBuffers& b) {
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.height, b.height);
+  EXPECT_EQ(a.depth, b.depth);
+  EXPECT_EQ(a.normal, b.normal);
+  EXPECT_EQ(a.mask, b.mask);
+  EXPECT_EQ(a.label, b.label);
+  EXPECT_EQ(a.triangle, b.triangle);
+  EXPECT_EQ(a.color.width, b.color.width);
+  EXPECT_EQ(a.color.height, b.color.height);
+  EXPECT_EQ(a.color.pixels, b.color.pixels);
+}
+
+TEST(Forward, BuffersOfAnotherImageAreOverwritten) {
+  const core::TexturedMesh square = ForwardSquare(1.0, 0.0);
+  Scene scene;
+  scene.Add(&square);
+  scene.Commit();
+  ForwardOptions shaded, sampled;
+  shaded.shaded = sampled.shaded = true;
+  sampled.samples_per_side = 3;
+  const core::Camera large = ForwardFromAbove(1.2, 64, 60.0), small = ForwardFromAbove(3.0, 27, 60);
+  ForwardBuffers buffers;
+  RenderForward(scene, large, shaded, &buffers);
+  RenderForward(scene, small, {}, &buffers);
+  ExpectEqual(buffers, RenderForward(scene, small));
+  RenderForward(scene, large, sampled, &buffers);
+  RenderForward(scene, small, sampled, &buffers);
+  ExpectEqual(buffers, RenderForward(scene, small, sampled));
+  const core::Image taken = std::move(buffers.color);
+  RenderForward(scene, small, sampled, &buffers);
+  EXPECT_EQ(buffers.color.pixels, taken.pixels);
 }
 
 TEST(Forward, MovedVerticesAreRefitted) {

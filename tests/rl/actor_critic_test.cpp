@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/parallel.h"
 #include "rl/flat_adam.h"
 #include "rl/gaussian_policy.h"
 #include "rl/loss_shares.h"
@@ -170,17 +171,18 @@ TEST(LossShares, GiveTheGradientOfTheWhole) {
   const ActorCritic networks({3, 2, {16}, Activation::kElu}, 0.4, rng, kCpu);
   PpoOptions options;
   const torch::Tensor log_std = networks.log_std().detach().clone();
-  Samples batch = SampledBy(networks, 1100, 0.2f);  // five shares, of which none has 1100 / 4 rows
+  Samples batch = SampledBy(networks, 1100, 0.2f);  // three shares of 366 or 367 rows
   batch.NormalizeAdvantages();
   const PpoLoss whole = ComputePpoLoss(networks, batch, log_std, options);
   torch::Tensor gradients = networks.parameters().gradients();
   gradients.zero_();
   whole.total.backward();
   const torch::Tensor expected = gradients.clone();
-  const LossMeans means = BackpropagateInShares(
-      networks.parameters(), 1100, [&](std::int64_t first, std::int64_t count) {
-        return ComputePpoLoss(networks, batch.Rows(first, count), log_std, options);
-      });
+  const auto loss_of = [&](std::int64_t first, std::int64_t count) {
+    return ComputePpoLoss(networks, batch.Rows(first, count), log_std, options);
+  };
+  core::SetThreadCount(1);
+  const LossMeans means = BackpropagateInShares(networks.parameters(), 1100, loss_of);
   EXPECT_GT(expected.norm().item<double>(), 0.1);
   EXPECT_LT((gradients - expected).abs().max().item<double>(), 1e-6);
   EXPECT_NEAR(means.policy, whole.policy.item<double>(), 1e-6);
@@ -188,6 +190,11 @@ TEST(LossShares, GiveTheGradientOfTheWhole) {
   EXPECT_NEAR(means.entropy, whole.entropy.item<double>(), 1e-6);
   EXPECT_NEAR(means.kl, whole.kl.item<double>(), 1e-6);
   EXPECT_NEAR(means.clipped_share, whole.clipped_share.item<double>(), 1e-6);
+  const torch::Tensor alone = gradients.clone();
+  core::SetThreadCount(3);
+  BackpropagateInShares(networks.parameters(), 1100, loss_of);
+  core::SetThreadCount(0);
+  EXPECT_TRUE(torch::equal(gradients, alone));
 }
 
 }  // namespace

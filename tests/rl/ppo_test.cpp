@@ -231,9 +231,27 @@ TEST(Ppo, TheSameSeedGivesTheSamePolicyBitForBitAndAnotherDoesNot) {
   options.seed = 1;
   const Eigen::MatrixXf first = WeightsAfter(4, options);
   EXPECT_TRUE((first.array() == WeightsAfter(4, options).array()).all());
+  core::SetThreadCount(1);
+  EXPECT_TRUE((first.array() == WeightsAfter(4, options).array()).all());
   options.seed = 2;
   EXPECT_FALSE((first.array() == WeightsAfter(4, options).array()).all());
   core::SetThreadCount(0);
+}
+
+TEST(Ppo, AnUpdateWithoutASampleChangesNothing) {
+  ReachEnvironment environment(1);
+  PpoOptions options = SmallOptions();
+  options.horizon = 1;
+  Ppo ppo(&environment, options);
+  std::vector<Outcome> outcomes;
+  ppo.Collect(&outcomes);
+  ppo.Update();
+  const Eigen::MatrixXf before = ppo.CurrentPolicy().actor().layers()[0].weights;
+  environment.Spoil(0);
+  ppo.Collect(&outcomes);  // its only sample is dropped
+  const UpdateReport report = ppo.Update();
+  EXPECT_EQ(report.skipped, 1);
+  EXPECT_EQ(ppo.CurrentPolicy().actor().layers()[0].weights, before);
 }
 
 TEST(Ppo, ARewardThatIsNoNumberIsDroppedAndManyFailTheRunNamingItsSeed) {
