@@ -1,15 +1,17 @@
 // Counts the samples until PPO balances an inverted pendulum, by seed.
-//   bench_inverted_pendulum [--seeds N] [--samples N] [--threads N]
-// Every 8192 samples the current policy plays 20 episodes with its mean action. Prints the samples
-// until their mean return is 950 of 1000 or more for the first time, the mean return from then on,
-// and that of the last 100 episodes of the training itself. CleanRL's ppo_continuous_action reaches
-// 963 +- 22 on MuJoCo's InvertedPendulum-v4 within 1M samples (its documentation).
+//   bench_inverted_pendulum --help
+// Every --play-every samples the current policy plays 20 episodes with its mean action. Prints the
+// samples until their mean return is 950 of 1000 or more for the first time, the mean return from
+// then on, and that of the last 100 episodes of the training itself. CleanRL's
+// ppo_continuous_action reaches 963 +- 22 on MuJoCo's InvertedPendulum-v4 within 1M samples (its
+// documentation).
 #include "tests/rl/inverted_pendulum.h"
 
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
+
+#include <CLI/CLI.hpp>
 
 #include "core/parallel.h"
 #include "rl/ppo.h"
@@ -18,15 +20,38 @@ namespace simwright {
 namespace {
 
 constexpr int kPlayed = 20, kEnvironments = 16;
-constexpr std::int64_t kPlayEvery = 8192;
 
-rl::PpoOptions Options(std::uint64_t seed) {
-  rl::PpoOptions options;
-  options.horizon = 128;
-  options.minibatch = 512;
-  options.hidden = {64, 64};
-  options.seed = seed;
-  return options;
+struct Settings {
+  int seeds = 5;
+  std::uint64_t first_seed = 1;
+  std::int64_t samples = 200'000, play_every = 8192;
+  rl::PpoOptions ppo;
+};
+
+Settings DefaultSettings() {
+  Settings settings;
+  settings.ppo.horizon = 128;
+  settings.ppo.minibatch = 512;
+  settings.ppo.hidden = {64, 64};
+  return settings;
+}
+
+void AddOptions(CLI::App* app, Settings* settings) {
+  const auto add = [app](const char* name, auto* value, const char* help) {
+    app->add_option(name, *value, help)->capture_default_str();
+  };
+  add("--seeds", &settings->seeds, "Number of trainings");
+  add("--first-seed", &settings->first_seed, "Seed of the first one");
+  add("--samples", &settings->samples, "Of each training");
+  add("--play-every", &settings->play_every, "Samples between evaluations");
+  add("--horizon", &settings->ppo.horizon, "Steps of an environment between updates");
+  add("--minibatch", &settings->ppo.minibatch, "Samples per gradient step");
+  add("--epochs", &settings->ppo.epochs, "Passes over each sample");
+  add("--initial-std", &settings->ppo.initial_std, "Of the actions, at the start");
+  add("--target-kl", &settings->ppo.target_kl, "KL divergence of an update that keeps the rate");
+  add("--learning-rate", &settings->ppo.learning_rate, "At the start");
+  add("--lambda", &settings->ppo.lambda, "Of the generalized advantages");
+  app->add_option_function<int>("--threads", core::SetThreadCount, "Number of threads");
 }
 
 // Returns the mean return over one episode of each of kPlayed environments.
@@ -49,21 +74,23 @@ double Play(const rl::Policy& policy) {
   return sum / kPlayed;
 }
 
-void Train(std::uint64_t seed, std::int64_t samples) {
+void Train(const Settings& settings, std::uint64_t seed) {
   const auto start = std::chrono::steady_clock::now();
   rl::InvertedPendulum environment(kEnvironments);
-  rl::Ppo ppo(&environment, Options(seed));
+  rl::PpoOptions options = settings.ppo;
+  options.seed = seed;
+  rl::Ppo ppo(&environment, options);
   rl::OutcomeWindow recent(100);
   std::int64_t solved = 0;
   double sum = 0.0, smallest = 1000.0;
   int played = 0;
-  for (std::int64_t next = kPlayEvery; ppo.samples() < samples;) {
+  for (std::int64_t next = settings.play_every; ppo.samples() < settings.samples;) {
     std::vector<rl::Outcome> outcomes;
     ppo.Collect(&outcomes);
     ppo.Update();
     for (const rl::Outcome& outcome : outcomes) recent.Add(outcome);
     if (ppo.samples() < next) continue;
-    next += kPlayEvery;
+    next += settings.play_every;
     const double mean = Play(ppo.CurrentPolicy());
     if (solved == 0 && mean >= 950.0) solved = ppo.samples();
     if (solved == 0) continue;
@@ -83,17 +110,13 @@ void Train(std::uint64_t seed, std::int64_t samples) {
 }  // namespace simwright
 
 int main(int argc, char** argv) {
-  int seeds = 5;
-  std::int64_t samples = 200000;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string flag = argv[i];
-    if (flag == "--seeds") seeds = std::atoi(argv[i + 1]);
-    if (flag == "--samples") samples = std::atoll(argv[i + 1]);
-    if (flag == "--threads") simwright::core::SetThreadCount(std::atoi(argv[i + 1]));
-  }
+  CLI::App app("Samples until PPO balances an inverted pendulum");
+  simwright::Settings settings = simwright::DefaultSettings();
+  simwright::AddOptions(&app, &settings);
+  CLI11_PARSE(app, argc, argv);
   std::printf("| seed | samples to 950 | mean after | least after | last 100 sampled | s |\n");
   std::printf("|---|---|---|---|---|---|\n");
-  for (int seed = 1; seed <= seeds; ++seed) {
-    simwright::Train(static_cast<std::uint64_t>(seed), samples);
+  for (int i = 0; i < settings.seeds; ++i) {
+    simwright::Train(settings, settings.first_seed + static_cast<std::uint64_t>(i));
   }
 }
