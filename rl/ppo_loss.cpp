@@ -20,6 +20,11 @@ torch::Tensor GaussianEntropy(const torch::Tensor& log_std, std::int64_t actions
          0.5 * (1.0 + std::log(2.0 * std::numbers::pi)) * static_cast<double>(actions);
 }
 
+torch::Tensor NormalizedAdvantages(const torch::Tensor& advantages, const AdvantageScale* scale) {
+  if (scale != nullptr) return (advantages - scale->mean) / (scale->deviation + 1e-8);
+  return (advantages - advantages.mean()) / (advantages.std(/*unbiased=*/false) + 1e-8);
+}
+
 torch::Tensor ValueLoss(const torch::Tensor& values, const Samples& batch, double clip) {
   const torch::Tensor loss = (values - batch.returns).square();
   if (clip == 0.0) return 0.5 * loss.mean();
@@ -37,7 +42,8 @@ Samples Samples::Select(const torch::Tensor& indices) const {
 }
 
 PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,
-                       const torch::Tensor& old_log_std, const PpoOptions& options) {
+                       const torch::Tensor& old_log_std, const PpoOptions& options,
+                       const AdvantageScale* scale) {
   const torch::Tensor means = networks.Means(batch.observations);
   const torch::Tensor& log_std = networks.log_std();
   const auto actions = static_cast<double>(batch.actions.size(1));
@@ -45,8 +51,7 @@ PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,
       -0.5 * ((batch.actions - means) * (-log_std).exp()).square().sum(1) - log_std.sum() -
       0.5 * std::log(2.0 * std::numbers::pi) * actions;
   const torch::Tensor ratio = (log_density - batch.log_densities).exp();
-  const torch::Tensor advantages = (batch.advantages - batch.advantages.mean()) /
-                                   (batch.advantages.std(/*unbiased=*/false) + 1e-8);
+  const torch::Tensor advantages = NormalizedAdvantages(batch.advantages, scale);
   const torch::Tensor clipped = ratio.clamp(1.0 - options.clip, 1.0 + options.clip);
   PpoLoss loss;
   const torch::Tensor policy = -torch::min(ratio * advantages, clipped * advantages).mean();

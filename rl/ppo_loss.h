@@ -28,11 +28,17 @@ struct PpoLoss {
   torch::Tensor clipped_share;  // of ratios outside the clip range
 };
 
+// The mean and the standard deviation of a minibatch's advantages.
+struct AdvantageScale {
+  double mean = 0.0, deviation = 1.0;
+};
+
 // Computes the clipped objective (Schulman et al. 2017, equations 7 and 9) on a minibatch, whose
 // advantages are normalized to mean 0 and standard deviation 1. `old_log_std` (A): of the policy
-// that acted.
+// that acted. `scale`: of the whole minibatch where `batch` is a part of it; null: of `batch`.
 PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,
-                       const torch::Tensor& old_log_std, const PpoOptions& options);
+                       const torch::Tensor& old_log_std, const PpoOptions& options,
+                       const AdvantageScale* scale = nullptr);
 
 // Demonstrated actions at D observations.
 struct Demonstrations {
