@@ -13,6 +13,7 @@
 #include "cli/findings_output.h"
 #include "cli/usage.h"
 #include "core/error.h"
+#include "core/finding_text.h"
 #include "core/parallel.h"
 #include "core/ranks.h"
 

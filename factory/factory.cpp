@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/log.h"
 #include "core/parallel.h"
 #include "factory/factory_asset.h"
 #include "factory/factory_folder.h"
@@ -208,6 +209,7 @@ class FactoryWorker {
         if (!claim.held() || fs::exists(record)) return;
         const std::string text = make(i);
         core::WriteFile(record, text);
+        core::Log(core::LogLevel::kInfo, "factory", "recorded ", record.stem().string());
         Count(record, false);
         WritePage(WorkerStage::kRunning, false);
       });
