@@ -122,46 +122,57 @@ std::string Generate(const std::string& output, const std::string& assets = "") 
          output + (assets.empty() ? "" : " --assets " + assets);
 }
 
-TEST_F(Ranks, GenerateTheScenesOfOneProcess) {
-  const Outcome alone = RunProgram(Generate(Path("made")));
-  ASSERT_EQ(alone.code, 0) << alone.text;
-  // The assets of the others come from there, which is faster.
-  const std::string assets = Path("made") + "/assets";
-  ASSERT_EQ(RunProgram(Generate(Path("one"), assets)).code, 0);
-  const std::string expected = core::ContentHashOf(Path("one"));
-  EXPECT_EQ(core::ContentHashOf(Path("made")), expected);
-  for (const int ranks : {2, 4}) {
-    const std::string output = Path("ranks" + std::to_string(ranks));
-    const Outcome outcome = RunRanks(ranks, Generate(output, assets));
-    ASSERT_EQ(outcome.code, 0) << outcome.text;
-    EXPECT_EQ(core::ContentHashOf(output), expected) << ranks;
-    const auto shards = NamesAfter(outcome.text, "wrote shard ");
-    EXPECT_EQ(shards.size(), static_cast<size_t>(kShards)) << outcome.text;
+// A dataset by one process, to compare with.
+class SceneRanks : public Ranks {
+ protected:
+  // One test runs all checks, because separate processes would each make all assets again.
+  void SharesShards(int ranks);
+  void SharesShardsOfAnArray();
+  void CompletesWhatAKilledRankLeft();
+
+  // Expects that each shard was written once.
+  static void ExpectShards(const std::string& text) {
+    const auto shards = NamesAfter(text, "wrote shard ");
+    EXPECT_EQ(shards.size(), static_cast<size_t>(kShards)) << text;
     for (const auto& [shard, times] : shards) EXPECT_EQ(times, 1) << shard;
-    EXPECT_EQ(LinesWith(outcome.text, "20 scenes of").size(), 1u) << outcome.text;
-    EXPECT_EQ(LinesWith(outcome.text, "assets-used").size(), 1u) << outcome.text;
-    EXPECT_EQ(LinesWith(outcome.text, "scenes: ").size(), 1u) << outcome.text;
   }
-  // Each of the tasks of an array ends for itself, and the last one reports.
+  // The assets come from the first dataset, which is faster.
+  std::string GenerateLater(const std::string& name) const {
+    return Generate(Path(name), Path("made") + "/assets");
+  }
+
+  std::string expected_;  // hash of the dataset
+};
+
+void SceneRanks::SharesShards(int ranks) {
+  const std::string name = "ranks" + std::to_string(ranks);
+  const Outcome outcome = RunRanks(ranks, GenerateLater(name));
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_EQ(core::ContentHashOf(Path(name)), expected_) << ranks;
+  ExpectShards(outcome.text);
+  EXPECT_EQ(LinesWith(outcome.text, "20 scenes of").size(), 1u) << outcome.text;
+  EXPECT_EQ(LinesWith(outcome.text, "assets-used").size(), 1u) << outcome.text;
+  EXPECT_EQ(LinesWith(outcome.text, "scenes: ").size(), 1u) << outcome.text;
+}
+
+// Each of the tasks of an array ends for itself, and the last one reports.
+void SceneRanks::SharesShardsOfAnArray() {
   const std::string script =
       std::string("SIMWRIGHT=") + SIMWRIGHT_PROGRAM + " SLURM_ARRAY_TASK_MIN=5 " +
       "SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_STEP=1 SLURM_CPUS_PER_TASK=1 " +
       "SLURM_ARRAY_TASK_ID=$task " + SIMWRIGHT_SOURCE_DIR +
       "/examples/slurm/scenes.sh living_room_shelf 20 " + Path("array") +
-      " --part 2 --log-level info --assets " + assets + " >" + Path("log") + "_$task 2>&1";
-  const Outcome array = RunShell("for task in 5 6; do (" + script + ") & done; wait");
+      " --part 2 --log-level info --assets " + Path("made") + "/assets >" + Path("log") +
+      "_$task 2>&1";
+  RunShell("for task in 5 6; do (" + script + ") & done; wait");
   const std::string logs = Contents(Path("log_5")) + Contents(Path("log_6"));
-  EXPECT_EQ(core::ContentHashOf(Path("array")), expected) << logs;
-  const auto shards = NamesAfter(logs, "wrote shard ");
-  EXPECT_EQ(shards.size(), static_cast<size_t>(kShards)) << logs;
-  for (const auto& [shard, times] : shards) EXPECT_EQ(times, 1) << shard;
+  ASSERT_TRUE(fs::exists(Path("array"))) << logs;
+  EXPECT_EQ(core::ContentHashOf(Path("array")), expected_) << logs;
+  ExpectShards(logs);
   EXPECT_GE(LinesWith(logs, "20 scenes of").size(), 1u) << logs;
 }
 
-TEST_F(Ranks, AKilledOneLosesTheShardThatItWasWriting) {
-  const Outcome alone = RunProgram(Generate(Path("one")));
-  ASSERT_EQ(alone.code, 0) << alone.text;
-  const std::string command = Generate(Path("killed"), Path("one") + "/assets");
+void SceneRanks::CompletesWhatAKilledRankLeft() {
   const auto complete = [&] {
     std::set<std::string> names;
     if (!fs::exists(Path("killed"))) return names;
@@ -171,6 +182,7 @@ TEST_F(Ranks, AKilledOneLosesTheShardThatItWasWriting) {
     }
     return names;
   };
+  const std::string command = GenerateLater("killed");
   const Outcome killed =
       KillARank(command, Path("killed"), Path("log"), [&] { return complete().size() >= 2; });
   EXPECT_NE(killed.code, 0) << killed.text;
@@ -178,11 +190,20 @@ TEST_F(Ranks, AKilledOneLosesTheShardThatItWasWriting) {
   ASSERT_GE(before.size(), 2u);
   const Outcome rerun = RunRanks(2, command);
   ASSERT_EQ(rerun.code, 0) << rerun.text;
-  EXPECT_EQ(core::ContentHashOf(Path("killed")), core::ContentHashOf(Path("one")));
-  // Rank 0, which mpirun asked to end, may have kept a part of a shard; all others are as they
-  // were.
+  EXPECT_EQ(core::ContentHashOf(Path("killed")), expected_);
+  // Rank 0, which mpirun asks to end, may have kept a part of its shard; the others are kept.
   const auto shards = NamesAfter(rerun.text, "wrote shard ");
   EXPECT_LE(shards.size(), kShards - before.size() + 1) << rerun.text;
+}
+
+TEST_F(SceneRanks, GenerateTheScenesOfOneProcess) {
+  const Outcome alone = RunProgram(Generate(Path("made")));
+  ASSERT_EQ(alone.code, 0) << alone.text;
+  expected_ = core::ContentHashOf(Path("made"));
+  SharesShards(2);
+  SharesShards(4);
+  SharesShardsOfAnArray();
+  CompletesWhatAKilledRankLeft();
 }
 
 TEST_F(Ranks, PrintAnErrorOfAllOnce) {
@@ -246,7 +267,8 @@ TEST_F(Ranks, TrainTogetherAndResume) {
   core::WriteFile(Path("tin/tin.urdf"), kRanksTin);
   ASSERT_EQ(RunProgram("tasks " + Path("tin") + " -o " + Path("tasks.json")).code, 0);
   const auto command = [&](const std::string& run, int samples) {
-    return "train " + Path("tasks.json") + " --task pick_up_tin --envs 8 --episodes 6 --steps " +
+    return "train " + Path("tasks.json") +
+           " --task pick_up_tin --envs 8 --episodes 6 --imitate 0 --steps " +
            std::to_string(samples) + " -o " + Path(run);
   };
   const Outcome trained = RunRanks(2, command("run", 2048));
