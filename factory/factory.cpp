@@ -240,7 +240,7 @@ class FactoryWorker {
   std::mutex page_mutex_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(),
                                         page_written_ = start_;
-  // Of an array each task writes it.
+  // Each task of an array writes it.
   double page_seconds_ = kPageSeconds * std::min(20, request_.place.array_tasks);
   double processor_ = ProcessSeconds();
   int kept_ = 0;

@@ -94,11 +94,18 @@ Outcome KillARank(const std::string& arguments, const std::string& argument, con
   }
   int status = 0;
   pid_t rank = 0;
-  for (int i = 0; i < 2400 && waitpid(launcher, &status, WNOHANG) == 0; ++i) {
+  bool ended = false;
+  for (int i = 0; i < 12000 && !ended; ++i) {
     if (rank == 0 && begun() && (rank = ProcessOfRank(1, argument)) != 0) kill(rank, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    ended = waitpid(launcher, &status, WNOHANG) != 0;
   }
   EXPECT_NE(rank, 0) << "it ended before it could be killed";
+  EXPECT_TRUE(ended) << "the launcher does not end";
+  if (!ended) {
+    kill(launcher, SIGTERM);
+    waitpid(launcher, &status, 0);
+  }
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   outcome.text = Contents(log);
   return outcome;

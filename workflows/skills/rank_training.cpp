@@ -45,6 +45,7 @@ RankTraining TrainShare(const TrainRequest& request, const SkillRun& run, const 
         ReportProgress(record, options, progress);
       },
       [&](const rl::Policy& policy) {
+        if (starts.empty()) return rl::Examination();
         const skills::SkillEvaluation found = skills::Evaluate(*skill.evaluated, policy, starts);
         return rl::Examination{found.successes, share.count};
       },
