@@ -24,6 +24,7 @@ packages=(
   libcli11-dev libcurl4-openssl-dev libtinyxml2-dev libzip-dev libexif-dev libgif-dev libwebp-dev
   libconsole-bridge-dev libhdf5-dev libspdlog-dev libcpp-httplib-dev
   wordnet-base libtorch-dev libopenblas0-pthread
+  libopenmpi-dev openmpi-bin
   python3-dev python3-venv
 )
 test_libraries=(libgtest-dev libsdformat-dev)

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/progress.h"
+#include "core/ranks.h"
 
 namespace simwright::cli {
 
@@ -23,7 +24,8 @@ struct CommonOptions {
   std::string config;  // unused: ArgumentsOf passes --config to the program itself
 
   core::Progress::Style ProgressStyle() const {
-    return quiet || json ? core::Progress::Style::kSilent : core::Progress::StyleForStderr();
+    const bool silent = quiet || json || !core::ThisRank().leads();
+    return silent ? core::Progress::Style::kSilent : core::Progress::StyleForStderr();
   }
 };
 
@@ -32,8 +34,8 @@ struct CommonOptions {
 // Errors are thrown.
 using Run = std::function<int()>;
 
-// Prints that a run was stopped, that `folder` keeps its progress and that --resume continues it;
-// returns kInterrupted.
+// Prints that a run was stopped, that `folder` keeps its progress and that --resume continues it,
+// of several ranks only the first; returns kInterrupted.
 int ReportStopped(const std::filesystem::path& folder);
 
 void AddCommon(CLI::App* command, CommonOptions* common);

@@ -9,6 +9,7 @@
 namespace simwright::cli {
 
 int ReportStopped(const std::filesystem::path& folder) {
+  if (!core::ThisRank().leads()) return kInterrupted;
   std::fprintf(stderr,
                "error: stopped; finished work is kept in %s, the same command with --resume "
                "continues\n",

@@ -18,10 +18,12 @@ struct FactoryFlags {
 int Factory(const FactoryFlags& flags, const CommonOptions& common) {
   factory::FactoryRequest request = flags.request;
   request.theme.seed = common.seed;
+  request.place = core::ThisRank();
   if (flags.generator.given()) request.generator = MakeFlaggedGenerator(flags.generator, common);
   core::Progress progress(common.ProgressStyle());
   try {
     const factory::FactoryReport report = factory::RunFactory(request, &progress);
+    if (!request.place.leads()) return report.state.made() > 0 ? 0 : 1;
     if (common.json) {
       PrintJson(factory::FactoryJson(report), report.findings);
     } else {
@@ -49,7 +51,8 @@ void AddFactory(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright factory --resume -o kitchen\n"
       "The dashboard is kitchen/index.html. More workers join with --resume, also on other "
       "machines\n"
-      "that share the folder. See docs/factory.md.");
+      "that share the folder, or are ranks of mpirun or tasks of a Slurm array (docs/scale.md).\n"
+      "See docs/factory.md.");
   factory::FactoryRequest& request = flags->request;
   auto* plan = command->add_option("plan", request.plan, "A plan of sources (docs/factory.md)");
   plan->default_str("none");

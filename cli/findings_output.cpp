@@ -4,13 +4,30 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <string>
+#include <thread>
 
 #include "core/finding_json.h"
 #include "core/finding_text.h"
 #include "core/json.h"
+#include "core/progress.h"
+#include "core/ranks.h"
 
 namespace simwright::cli {
+namespace {
+
+// Waits for the end of the ranks by their launcher; false if it is asked for meanwhile.
+bool RanksMoment() {
+  constexpr int kSteps = 30;
+  for (int i = 0; i < kSteps && !core::CancelRequested(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return !core::CancelRequested();
+}
+
+}  // namespace
 
 std::size_t LineWidth() {
   winsize size{};
@@ -18,6 +35,19 @@ std::size_t LineWidth() {
   constexpr std::size_t kUsual = 80, kLeast = 40;
   if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsual;
   return std::max<std::size_t>(size.ws_col, kLeast);
+}
+
+void PrintError(const core::Finding& error, bool json) {
+  const core::RankPlace& place = core::ThisRank();
+  std::string text = core::FindingText(error, LineWidth());
+  if (!place.leads()) {
+    if (!RanksMoment()) return;
+    text = "rank " + std::to_string(place.rank) + ": " + text;
+  }
+  std::fputs(text.c_str(), stderr);
+  if (json && place.leads()) {
+    PrintJson(core::OrderedJson{{"error", error.sentence}}, {error});
+  }
 }
 
 void PrintFindings(const core::Findings& findings, const CommonOptions& common) {

@@ -12,6 +12,11 @@ namespace simwright::cli {
 // a pipe is not wrapped, so that it can be searched.
 std::size_t LineWidth();
 
+// Prints an error on stderr; with --json, also as the result. A rank other than the first prints
+// "rank 3: " before it, and nothing where it is ended within a moment: an error of all ranks is
+// then printed once, because mpirun ends the other ranks after the first one's error.
+void PrintError(const core::Finding& error, bool json);
+
 // Prints findings as core::FindingText on stderr, as every command does, so that stdout has only
 // its result. With --quiet only errors are printed; with --json none, because the JSON has them.
 void PrintFindings(const core::Findings& findings, const CommonOptions& common);

@@ -12,17 +12,10 @@
 #include "core/compute_environment.h"
 #include "core/error.h"
 #include "core/finding_text.h"
-#include "core/json.h"
 #include "core/parallel.h"
+#include "core/ranks.h"
 
 namespace {
-
-// Prints an error as a finding: on stderr, and with --json also as the result.
-void PrintError(const simwright::core::Finding& error, bool json) {
-  std::fputs(simwright::core::FindingText(error, simwright::cli::LineWidth()).c_str(), stderr);
-  if (json)
-    simwright::cli::PrintJson(simwright::core::OrderedJson{{"error", error.sentence}}, {error});
-}
 
 int Main(int argc, char** argv) {
   using namespace simwright;
@@ -77,15 +70,15 @@ int Main(int argc, char** argv) {
   try {
     return run();
   } catch (const core::Error& error) {
-    PrintError(core::FindingOf(error), common.json);
+    cli::PrintError(core::FindingOf(error), common.json);
   } catch (const core::Cancelled&) {
     throw;
   } catch (const std::bad_alloc&) {
-    PrintError({"error", core::Severity::kError, "", "out of memory", 0.0,
-                "close other programs, or use a smaller input"},
-               common.json);
+    cli::PrintError({"error", core::Severity::kError, "", "out of memory", 0.0,
+                     "close other programs, or use a smaller input"},
+                    common.json);
   } catch (const std::exception& error) {
-    PrintError({"error", core::Severity::kError, "", error.what()}, common.json);
+    cli::PrintError({"error", core::Severity::kError, "", error.what()}, common.json);
   }
   return 1;
 }
@@ -115,7 +108,9 @@ int main(int argc, char** argv) {
   try {
     return Main(argc, argv);
   } catch (const simwright::core::Cancelled&) {
-    std::fprintf(stderr, "error: stopped; nothing was written\n");
+    if (simwright::core::ThisRank().leads()) {
+      std::fprintf(stderr, "error: stopped; nothing was written\n");
+    }
     return simwright::cli::kInterrupted;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "error: out of memory (close other programs, or use a smaller input)\n");

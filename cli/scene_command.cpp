@@ -34,6 +34,17 @@ int ListSceneTypes(const CommonOptions& common) {
   return 0;
 }
 
+// Reports the end of a task of a Slurm array before the last one.
+int ReportElsewhere(int shards, const CommonOptions& common) {
+  if (common.json) {
+    PrintJson(core::OrderedJson{{"parts_elsewhere", shards}}, {});
+  } else {
+    std::printf("%d shards are being made by other tasks; the last task reports the dataset\n",
+                shards);
+  }
+  return 0;
+}
+
 int Generate(GenerateFlags flags, const CommonOptions& common) {
   if (flags.list) return ListSceneTypes(common);
   if (flags.request.type.empty() || flags.request.output.empty()) {
@@ -41,9 +52,12 @@ int Generate(GenerateFlags flags, const CommonOptions& common) {
                       "give --type dimsum -o FOLDER, or --list");
   }
   flags.request.seed = common.seed;
+  flags.request.place = core::ThisRank();
   flags.request.chosen = ParseCategoryFolders(flags.chosen, "--asset");
   core::Progress progress(common.ProgressStyle());
   const workflows::SceneStatistics statistics = workflows::GenerateScenes(flags.request, &progress);
+  if (!flags.request.place.leads()) return 0;
+  if (!statistics.reported) return ReportElsewhere(statistics.elsewhere, common);
   if (common.json) {
     PrintJson(workflows::StatisticsJson(statistics), statistics.findings);
     return 0;
@@ -62,8 +76,9 @@ void AddGenerate(CLI::App* scene, CommonOptions* common, Run* run) {
       "Example:\n  simwright scene generate --type dimsum --count 100 -o out/dimsum\n"
       "  simwright scene generate --type pantry_shelf --count 20 --asset apple=out/apple -o "
       "pantry\n"
-      "Several processes may write into one folder; an interrupted one continues when called\n"
-      "again. See docs/scenes.md.");
+      "Several processes may write into one folder, also ranks of mpirun and tasks of a Slurm "
+      "array\n"
+      "(docs/scale.md); an interrupted one continues when called again. See docs/scenes.md.");
   command->add_option("--type", request.type, "The scene type, see --list");
   command->add_option("--count", request.count, "Number of scenes in the dataset")
       ->capture_default_str();

@@ -7,6 +7,8 @@
 #include "cli/training_options.h"
 #include "cli/twin_options.h"
 #include "core/error.h"
+#include "core/ranks.h"
+#include "rl/communicator.h"
 #include "transfer/twin_ranges.h"
 #include "workflows/skills/skill_training.h"
 
@@ -25,6 +27,12 @@ int TrainSkill(const SkillTrainFlags& flags, const CommonOptions& common) {
     request.placement_ranges = transfer::PlacementRanges(flags.twin, flags.sigmas);
   }
   request.seed = common.seed;
+  request.ranks = rl::JoinRanks(core::ThisRank());
+  if (!request.ranks->leads()) {
+    workflows::FollowTraining(request);
+    request.ranks->Finalize();
+    return 0;
+  }
   core::Progress progress(common.ProgressStyle());
   workflows::TrainReport report;
   try {
@@ -35,6 +43,7 @@ int TrainSkill(const SkillTrainFlags& flags, const CommonOptions& common) {
     return ReportStopped(request.output);
   }
   progress.Finish();
+  request.ranks->Finalize();
   if (common.json) {
     PrintJson(workflows::TrainJson(report), report.findings);
     return 0;
@@ -89,7 +98,8 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
       "  simwright train tasks.json --task pick_up_mug_1 --twin twin -o pick_mug\n"
       "Subtasks are learnt in order, each mostly from the ends of the previous one. Ctrl-C or a "
       "crash\n"
-      "loses at most half a minute: --resume continues. See docs/skills.md.");
+      "loses at most half a minute: --resume continues. mpirun's ranks train together\n"
+      "(docs/scale.md). See docs/skills.md.");
   command->add_option("tasks", request->task_file, "The file written by `simwright tasks`")
       ->required();
   command

@@ -4,7 +4,8 @@
 #include <cstdio>
 
 #include "cli/findings_output.h"
-#include "core/finding_text.h"
+#include "core/finding.h"
+#include "core/ranks.h"
 #include "reward/frontend/spelling.h"
 
 namespace simwright::cli {
@@ -191,7 +192,7 @@ std::string Diagnosis(const CLI::App& app, const std::vector<std::string>& argum
 int ReportUsage(const CLI::App& app, const std::vector<std::string>& arguments,
                 const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-    app.exit(error);  // help
+    if (core::ThisRank().leads()) app.exit(error);  // help
     return 0;
   }
   Walk walk(app);
@@ -199,7 +200,7 @@ int ReportUsage(const CLI::App& app, const std::vector<std::string>& arguments,
   const core::Finding finding{"error", core::Severity::kError,
                               "",      Diagnosis(app, arguments, error),
                               0.0,     FullName(walk.app()) + " --help lists the options"};
-  std::fputs(core::FindingText(finding, LineWidth()).c_str(), stderr);
+  PrintError(finding, /*json=*/false);
   return kWrongUsage;
 }
 

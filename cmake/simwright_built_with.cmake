@@ -11,6 +11,10 @@ function(simwright_built_with target)
   string(REGEX REPLACE ".*mjVERSION_HEADER ([0-9])([0-9])([0-9]+).*" "\\1.\\2.\\3" mujoco_version
          "${mujoco_line}")
   get_filename_component(openblas_name "${SIMWRIGHT_OPENBLAS}" NAME)
+  set(simwright_mpi_version)
+  if(simwright_mpi_link)
+    set(simwright_mpi_version ${MPI_C_VERSION})
+  endif()
   set(pairs
     "compiler=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
     "build=${CMAKE_BUILD_TYPE}, ${CMAKE_SYSTEM_NAME} ${CMAKE_SYSTEM_PROCESSOR}"
@@ -27,6 +31,7 @@ function(simwright_built_with target)
     "HDF5=${hdf5_VERSION}"
     "libtorch=${torch_version}"
     "libzip=${libzip_VERSION}"
+    "MPI=${simwright_mpi_version}"
     "MuJoCo=${mujoco_version}"
     "nlohmann-json=${nlohmann_json_VERSION}"
     "OpenBLAS=${openblas_name}"

@@ -27,12 +27,12 @@ if(SIMWRIGHT_PYTHON)
     OUTPUT_VARIABLE simwright_python_range OUTPUT_STRIP_TRAILING_WHITESPACE)
   string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", ${simwright_python_range}, python3-numpy")
 endif()
-# What a program that links the libraries is compiled with.
+# What a program that links the libraries is compiled with, and what starts several ranks.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
     "g++, cmake, libassimp-dev, libbullet-dev, libceres-dev, libcgal-dev, libcpp-httplib-dev, libcurl4-openssl-dev, \
 libdraco-dev, libeigen3-dev, libembree-dev, libexif-dev, libgif-dev, libhdf5-dev, libmujoco-dev, \
-libopencv-contrib-dev, libopencv-dev, libspdlog-dev, libtinyxml2-dev, libtorch-dev, \
-liburdfdom-dev, libwebp-dev, libzip-dev, nlohmann-json3-dev, python3-h5py")
+libopencv-contrib-dev, libopencv-dev, libopenmpi-dev, libspdlog-dev, libtinyxml2-dev, libtorch-dev, \
+liburdfdom-dev, libwebp-dev, libzip-dev, nlohmann-json3-dev, openmpi-bin, python3-h5py")
 
 set(simwright_package_files ${CMAKE_BINARY_DIR}/package_files)
 # Manual pages and completions, made by the program itself when the package is made.

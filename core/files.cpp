@@ -8,6 +8,9 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <random>
+#include <sstream>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -17,11 +20,22 @@ namespace simwright::core {
 namespace fs = std::filesystem;
 namespace {
 
+// Returns a random word. Processes on several machines, or in several containers, may have the same
+// number and write into the same folder.
+std::string RandomWord() {
+  std::random_device device;
+  std::ostringstream word;
+  word << std::hex << device();
+  return word.str();
+}
+
 // Returns a sibling name of `path` that no other process or thread uses.
 fs::path SiblingName(const fs::path& path, const char* purpose) {
   static std::atomic<int> counter{0};
-  return path.parent_path() / ("." + path.filename().string() + "." + purpose + "-" +
-                               std::to_string(getpid()) + "-" + std::to_string(counter++));
+  static const std::string word = RandomWord();
+  return path.parent_path() /
+         ("." + path.filename().string() + "." + purpose + "-" + std::to_string(getpid()) + "-" +
+          word + "-" + std::to_string(counter++));
 }
 
 fs::path Normalised(const fs::path& path) {

@@ -1,6 +1,7 @@
 #include "core/parallel.h"
 
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -9,20 +10,28 @@
 #include <thread>
 #include <vector>
 
+#include "core/ranks.h"
+
 namespace simwright::core {
 namespace {
 
 std::atomic<int> thread_count{0};
 thread_local bool inside_parallel_for = false;
 
-// Returns the processors available to this process. std::thread::hardware_concurrency also counts
-// those that `taskset` or a container withholds, and more threads than processors wait for each
-// other at every loop's end.
-int MachineThreads() {
+// Returns the number of processors that a process may use; 0 if unknown.
+int ProcessorsOf(pid_t process) {
   cpu_set_t allowed;
   CPU_ZERO(&allowed);
-  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return sched_getaffinity(process, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 0;
+}
+
+// Returns the processors available to this process, its share where several ranks are on this
+// machine. std::thread::hardware_concurrency also counts those that `taskset` or a container
+// withholds, and more threads than processors wait for each other at every loop's end.
+int MachineThreads() {
+  int here = ProcessorsOf(0);
+  if (here == 0) here = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return ThreadsOf(ThisRank(), here, ProcessorsOf(getppid()));
 }
 
 }  // namespace

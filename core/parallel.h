@@ -5,7 +5,7 @@
 namespace simwright::core {
 
 // Returns the number of threads for long work, >= 1: `--threads`, by default all that this process
-// may use.
+// may use, of which the ranks on one machine (core/ranks.h) get equal shares.
 int ThreadCount();
 void SetThreadCount(int count);  // count <= 0: the default
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -14,6 +15,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/log.h"
 #include "core/parallel.h"
 #include "factory/factory_asset.h"
 #include "factory/factory_folder.h"
@@ -27,6 +29,7 @@ namespace {
 
 constexpr double kPageSeconds = 3.0;  // between two versions of the dashboard
 constexpr double kWaitSeconds = 0.5;  // between two looks for what other workers left
+constexpr std::chrono::milliseconds kClaimWait{50};
 
 double ProcessSeconds() {
   rusage usage{};
@@ -35,6 +38,16 @@ double ProcessSeconds() {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+// Waits until the claim on `path` is this worker's.
+std::unique_ptr<scene::ShardClaim> WaitForClaim(const fs::path& path) {
+  for (;;) {
+    auto claim = std::make_unique<scene::ShardClaim>(path);
+    if (claim->held()) return claim;
+    core::CheckCancelled();
+    std::this_thread::sleep_for(kClaimWait);
+  }
 }
 
 // Returns the plan of the folder: the one that is there, or the request's, which is then written.
@@ -46,8 +59,16 @@ FactoryPlan SharedPlan(const FactoryRequest& request, const FactoryFolder& folde
     asked = request.plan.empty() ? PlanOfTheme(request.theme, findings)
                                  : ReadFactoryPlan(request.plan, findings);
   }
+  const bool shared = request.place.workers() > 1;
+  std::unique_ptr<scene::ShardClaim> claim;  // beside the folder, which has to be empty
+  if (shared) {
+    fs::path root = fs::absolute(folder.root).lexically_normal();
+    if (root.filename().empty()) root = root.parent_path();
+    fs::create_directories(root.parent_path());
+    claim = WaitForClaim(root);
+  }
   if (fs::exists(folder.plan())) {
-    if (!request.resume) {
+    if (!request.resume && !(shared && asked)) {
       throw core::Error("the folder holds a factory", folder.root.string(),
                         "--resume resumes it, or joins its workers");
     }
@@ -66,8 +87,7 @@ FactoryPlan SharedPlan(const FactoryRequest& request, const FactoryFolder& folde
     throw core::Error("the folder exists and is not empty", folder.root.string(),
                       "choose another folder");
   }
-  fs::create_directories(folder.records());
-  fs::create_directories(folder.assets());
+  fs::create_directories(folder.root);
   core::WriteFile(folder.plan(), PlanText(*asked));
   return *asked;
 }
@@ -105,15 +125,17 @@ class FactoryWorker {
       if (recorded) continue;
       MakeParts(all, all + 1, [&](int) { return std::min(missing, plan_.tasks_per_part); });
     }
-    const scene::ShardClaim claim(folder_.tasks());
-    if (claim.held()) JoinTaskParts(all, folder_);
+    if (!request_.place.leads()) return;
+    const auto claim = WaitForClaim(folder_.tasks());
+    JoinTaskParts(all, folder_);
   }
 
   // Writes the dashboard; `last`: even if the present one is new.
   void WritePage(WorkerStage stage, bool last) {
+    if (!request_.place.leads()) return;
     const std::lock_guard lock(page_mutex_);
     const auto now = std::chrono::steady_clock::now();
-    if (!last && std::chrono::duration<double>(now - page_written_).count() < kPageSeconds) return;
+    if (!last && std::chrono::duration<double>(now - page_written_).count() < page_seconds_) return;
     page_written_ = now;
     core::WriteFile(folder_.page(),
                     FactoryPage(plan_, ReadFactoryState(plan_, folder_), State(stage)));
@@ -187,6 +209,7 @@ class FactoryWorker {
         if (!claim.held() || fs::exists(record)) return;
         const std::string text = make(i);
         core::WriteFile(record, text);
+        core::Log(core::LogLevel::kInfo, "factory", "recorded ", record.stem().string());
         Count(record, false);
         WritePage(WorkerStage::kRunning, false);
       });
@@ -217,6 +240,8 @@ class FactoryWorker {
   std::mutex page_mutex_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(),
                                         page_written_ = start_;
+  // Each task of an array writes it.
+  double page_seconds_ = kPageSeconds * std::min(20, request_.place.array_tasks);
   double processor_ = ProcessSeconds();
   int kept_ = 0;
   std::set<std::string> counted_;

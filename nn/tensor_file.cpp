@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "nn/tensor_bytes.h"
 
 namespace simwright::nn {
 namespace {
@@ -24,17 +25,16 @@ bool EndsWhole(const std::string& archive) {
 
 }  // namespace
 
-void WriteTensors(const NamedTensors& tensors, const std::filesystem::path& path) {
+std::string PackTensors(const NamedTensors& tensors) {
   c10::Dict<std::string, torch::Tensor> dictionary;
   for (const auto& [name, tensor] : tensors) {
     dictionary.insert(name, tensor.detach().to(torch::kCPU).contiguous());
   }
   const std::vector<char> bytes = torch::pickle_save(dictionary);
-  core::WriteFile(path, {bytes.data(), bytes.size()});
+  return {bytes.data(), bytes.size()};
 }
 
-NamedTensors ReadTensors(const std::filesystem::path& path) {
-  const std::string bytes = core::ReadFile(path, 1ull << 34);
+NamedTensors UnpackTensors(const std::string& bytes, const std::string& where) {
   NamedTensors tensors;
   try {
     if (!EndsWhole(bytes)) throw std::runtime_error("truncated");
@@ -43,9 +43,17 @@ NamedTensors ReadTensors(const std::filesystem::path& path) {
       tensors[entry.key().toStringRef()] = entry.value().toTensor();
     }
   } catch (const std::exception&) {
-    throw core::Error("is not a weights file of this program, or is damaged", path.string());
+    throw core::Error("is not a weights file of this program, or is damaged", where);
   }
   return tensors;
+}
+
+void WriteTensors(const NamedTensors& tensors, const std::filesystem::path& path) {
+  core::WriteFile(path, PackTensors(tensors));
+}
+
+NamedTensors ReadTensors(const std::filesystem::path& path) {
+  return UnpackTensors(core::ReadFile(path, 1ull << 34), path.string());
 }
 
 void CollectTensors(const torch::nn::Module& module, const std::string& prefix,

@@ -25,13 +25,14 @@ struct Ppo::Learner : PpoLearner {
   using PpoLearner::PpoLearner;
 };
 
-Ppo::Ppo(VectorEnvironment* environment, const PpoOptions& options)
+Ppo::Ppo(VectorEnvironment* environment, const PpoOptions& options, Communicator* ranks)
     : options_(CheckedOptions(options, *environment)),
-      collector_(environment, options),
+      ranks_(ranks),
+      collector_(environment, options, ranks),
       learner_(std::make_unique<Learner>(
           ActorCriticSizes{environment->observation_size(), environment->action_size(),
                            options.hidden, options.activation},
-          options)) {}
+          options, ranks)) {}
 
 Ppo::~Ppo() = default;
 

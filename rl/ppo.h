@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "rl/communicator.h"
 #include "rl/policy.h"
 #include "rl/ppo_options.h"
 #include "rl/recent_outcomes.h"
@@ -16,12 +17,14 @@ struct LearnerState;
 
 // Proximal policy optimization: collects rollouts in an environment and learns from them. All
 // random numbers derive from options.seed: the same seed and machine give bit-identical policies,
-// for any number of threads.
+// for any number of threads. With several ranks, which all call the same members, each steps its own
+// environment, and all have the same policy.
 class Ppo {
  public:
-  // Resets `environment`, which must outlive this, and calls nn::PrepareForWork. Throws core::Error
-  // for invalid options and for an environment without size.
-  Ppo(VectorEnvironment* environment, const PpoOptions& options);
+  // Resets `environment`, which must outlive this, and calls nn::PrepareForWork. `ranks` must outlive this. Throws core::Error for invalid options and for an
+  // environment without size.
+  Ppo(VectorEnvironment* environment, const PpoOptions& options,
+      Communicator* ranks = SingleProcess());
   ~Ppo();
   Ppo(const Ppo&) = delete;
   Ppo& operator=(const Ppo&) = delete;
@@ -35,6 +38,7 @@ class Ppo {
   // Returns a frozen copy of the current policy.
   Policy CurrentPolicy() const;
   const PpoOptions& options() const { return options_; }
+  Communicator& ranks() const { return *ranks_; }
   std::int64_t samples() const { return collector_.samples(); }
   std::int64_t dropped() const { return collector_.dropped(); }
 
@@ -47,6 +51,7 @@ class Ppo {
  private:
   struct Learner;
   PpoOptions options_;
+  Communicator* ranks_;
   RolloutCollector collector_;
   std::unique_ptr<Learner> learner_;
   Rollout rollout_;

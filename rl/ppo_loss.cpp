@@ -43,8 +43,10 @@ Samples Samples::Rows(std::int64_t first, std::int64_t count) const {
           returns.narrow(0, first, count)};
 }
 
-void Samples::NormalizeAdvantages() {
-  advantages = (advantages - advantages.mean()) / (advantages.std(/*unbiased=*/false) + 1e-8);
+void Samples::NormalizeAdvantages(const AdvantageScale* scale) {
+  advantages = scale != nullptr
+                   ? (advantages - scale->mean) / (scale->deviation + 1e-8)
+                   : (advantages - advantages.mean()) / (advantages.std(/*unbiased=*/false) + 1e-8);
 }
 
 PpoLoss ComputePpoLoss(const ActorCritic& networks, const Samples& batch,

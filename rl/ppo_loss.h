@@ -6,6 +6,11 @@
 
 namespace simwright::rl {
 
+// The mean and the standard deviation of a minibatch's advantages.
+struct AdvantageScale {
+  double mean = 0.0, deviation = 1.0;
+};
+
 // B samples of a rollout, with the values at collection time.
 struct Samples {
   torch::Tensor observations;   // (B x O)
@@ -20,8 +25,9 @@ struct Samples {
   Samples Select(const torch::Tensor& indices) const;
   // Returns samples [first, first + count), which share their memory with these.
   Samples Rows(std::int64_t first, std::int64_t count) const;
-  // Shifts and scales the advantages to mean 0 and standard deviation 1.
-  void NormalizeAdvantages();
+  // Shifts and scales the advantages to mean 0 and standard deviation 1. `scale`: of the whole
+  // minibatch where these are a part of it; null: their own.
+  void NormalizeAdvantages(const AdvantageScale* scale = nullptr);
 };
 
 struct PpoLoss {

@@ -5,11 +5,19 @@
 
 #include "core/error.h"
 #include "rl/gaussian_policy.h"
+#include "rl/rank_streams.h"
+#include "rl/shared_moments.h"
 
 namespace simwright::rl {
 namespace {
 
-constexpr std::uint64_t kActionStream = 1;  // 0 is the networks' initial weights
+constexpr std::uint64_t kActionStream = 1;  // 0 is the networks' initial weights, 2 shuffles
+constexpr std::uint64_t kEnvironmentStream = 3;
+
+// Returns the seed of a rank's environments.
+std::uint64_t EnvironmentSeed(std::uint64_t seed, int rank) {
+  return rank == 0 ? seed : core::StreamRng(seed, StreamOfRank(kEnvironmentStream, rank))();
+}
 
 std::size_t CountOf(const VectorEnvironment& environment) {
   return static_cast<std::size_t>(environment.size());
@@ -25,15 +33,19 @@ std::vector<std::uint8_t> RowsNotFinite(const Rows& rows) {
 
 }  // namespace
 
-RolloutCollector::RolloutCollector(VectorEnvironment* environment, const PpoOptions& options)
+RolloutCollector::RolloutCollector(VectorEnvironment* environment, const PpoOptions& options,
+                                   Communicator* ranks)
     : environment_(environment),
       options_(options),
-      rng_(core::StreamRng(options.seed, kActionStream)),
+      ranks_(ranks),
+      environments_(static_cast<int>(ranks->Sum(environment->size()))),
+      rng_(core::StreamRng(options.seed, StreamOfRank(kActionStream, ranks->rank()))),
       normalizer_(environment->observation_size()),
       scaler_(environment->size(), options.discount),
       episode_rewards_(CountOf(*environment), 0.0),
-      episode_steps_(CountOf(*environment), 0.0) {
-  environment_->Reset(options.seed, &batch_.observations);
+      episode_steps_(CountOf(*environment), 0.0),
+      merged_observations_(environment->observation_size()) {
+  environment_->Reset(EnvironmentSeed(options.seed, ranks->rank()), &batch_.observations);
 }
 
 void RolloutCollector::Normalize(const Rows& observations, Rows* normalized) const {
@@ -70,7 +82,19 @@ void RolloutCollector::Collect(const Mlp& actor, const Eigen::RowVectorXf& std, 
     TakeStep(step, rollout, outcomes);
   }
   Normalize(batch_.observations, &rollout->next_observations);
+  MergeRanks();
   CheckDropped();
+}
+
+void RolloutCollector::MergeRanks() {
+  if (ranks_->size() == 1) return;
+  merged_observations_ = MergedOverRanks(merged_observations_, normalizer_.moments(), ranks_);
+  normalizer_.Restore(merged_observations_);
+  merged_returns_ = MergedOverRanks(merged_returns_, scaler_.moments(), ranks_);
+  scaler_.Restore(merged_returns_, scaler_.discounted_returns());
+  merged_dropped_ +=
+      static_cast<std::int64_t>(ranks_->Sum(static_cast<double>(dropped_ - merged_dropped_)));
+  dropped_ = merged_dropped_;
 }
 
 void RolloutCollector::TakeStep(int step, Rollout* rollout, std::vector<Outcome>* outcomes) {
@@ -102,7 +126,7 @@ void RolloutCollector::FindDropped(std::vector<std::uint8_t>* dropped) {
                      (batch_.truncated[i] && !batch_.last_observations.row(row).allFinite());
     dropped_ += (*dropped)[i];
   }
-  samples_ += environment_->size();
+  samples_ += environments_;
 }
 
 void RolloutCollector::CheckDropped() const {
@@ -174,7 +198,9 @@ void RolloutCollector::RestoreState(const CollectorState& state) {
   episode_rewards_ = state.episode_rewards;
   episode_steps_ = state.episode_steps;
   samples_ = state.samples;
-  dropped_ = state.dropped;
+  dropped_ = merged_dropped_ = state.dropped;
+  merged_observations_ = state.observations;
+  merged_returns_ = state.returns;
 }
 
 }  // namespace simwright::rl

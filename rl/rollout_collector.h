@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "rl/communicator.h"
 #include "rl/mlp.h"
 #include "rl/observation_normalizer.h"
 #include "rl/ppo_options.h"
@@ -25,11 +26,14 @@ struct CollectorState {
   std::string environment;  // VectorEnvironment::SaveState
 };
 
-// Runs N environments and records their steps.
+// Runs N environments and records their steps. With several ranks each runs its own environments
+// with its own random streams; the moments of observations and returns are merged after each
+// rollout, and samples are those of all ranks.
 class RolloutCollector {
  public:
-  // Resets `environment`, which must outlive the collector.
-  RolloutCollector(VectorEnvironment* environment, const PpoOptions& options);
+  // Resets `environment`, which must outlive the collector, as `ranks` must.
+  RolloutCollector(VectorEnvironment* environment, const PpoOptions& options,
+                   Communicator* ranks = SingleProcess());
 
   // Takes options.horizon steps with actions sampled from `actor` and `std`, and appends the
   // finished episodes to `outcomes`. A step with a non-finite reward or observation is marked as
@@ -51,12 +55,16 @@ class RolloutCollector {
   void TakeStep(int step, Rollout* rollout, std::vector<Outcome>* outcomes);
   // Adds the rows of the batch that are not finite to `dropped` (N), and counts all dropped rows.
   void FindDropped(std::vector<std::uint8_t>* dropped);
+  // Merges moments and counts of all ranks.
+  void MergeRanks();
   void CheckDropped() const;
   void FollowEpisodes(const std::vector<std::uint8_t>& dropped, std::vector<Outcome>* outcomes);
   void KeepLastObservations(int step, Rollout* rollout) const;
 
   VectorEnvironment* environment_;
   PpoOptions options_;
+  Communicator* ranks_;
+  int environments_ = 0;  // of all ranks
   core::Rng rng_;
   ObservationNormalizer normalizer_;
   RewardScaler scaler_;
@@ -64,6 +72,9 @@ class RolloutCollector {
   Rows actions_;                                         // (N x A)
   std::vector<double> episode_rewards_, episode_steps_;  // (N)
   std::int64_t samples_ = 0, dropped_ = 0;
+  // At the last merging.
+  RunningMoments merged_observations_, merged_returns_{1};
+  std::int64_t merged_dropped_ = 0;
 };
 
 }  // namespace simwright::rl

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "core/progress.h"
+#include "rl/communicator.h"
 #include "rl/policy_file.h"
 #include "rl/ppo.h"
 #include "rl/training_checkpoint.h"
@@ -47,22 +49,45 @@ bool Prepare(const std::filesystem::path& folder, bool resume) {
   return found;
 }
 
-// A training and the files of its folder.
+// Returns the outcomes of all ranks, by rank.
+std::vector<Outcome> OutcomesOfAll(const std::vector<Outcome>& own, Communicator* ranks) {
+  if (ranks->size() == 1) return own;
+  std::vector<double> numbers;
+  for (const Outcome& outcome : own) {
+    numbers.insert(numbers.end(),
+                   {outcome.total_reward, outcome.steps, outcome.success ? 1.0 : 0.0});
+  }
+  std::vector<Outcome> all;
+  for (const std::string& bytes : ranks->AllGather(
+           {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)})) {
+    if (bytes.empty()) continue;
+    numbers.resize(bytes.size() / sizeof(double));
+    std::memcpy(numbers.data(), bytes.data(), bytes.size());
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) {
+      all.push_back({numbers[i], numbers[i + 1], numbers[i + 2] != 0.0});
+    }
+  }
+  return all;
+}
+
+// A training and the files of its folder, which rank 0 writes.
 class Training {
  public:
   Training(VectorEnvironment* environment, const TrainingOptions& options,
-           const std::filesystem::path& folder, bool resume, const Examiner& examine)
+           const std::filesystem::path& folder, bool resume, const Examiner& examine,
+           Communicator* ranks)
       : options_(CheckedRequest(options)),
         folder_(folder),
         examine_(examine),
-        ppo_(environment, options.ppo),
+        ranks_(ranks),
+        ppo_(environment, options.ppo, ranks),
         recent_(options.success_window) {
     if (resume) {
       progress_ = ReadCheckpoint(folder / kCheckpointFile, options.metadata, &ppo_, &recent_);
     } else if (!options.begin_from.empty()) {
       BeginFromCheckpoint(options.begin_from, &ppo_);
     }
-    log_.emplace(folder, progress_.iteration);
+    if (ranks_->leads()) log_.emplace(folder, progress_.iteration);
   }
 
   // Collects, learns, examines if due, and appends to the log.
@@ -72,7 +97,7 @@ class Training {
   bool SaveDue() const { return progress_.iteration % options_.checkpoint_every == 0; }
   void Save() const;
   TrainingRecord LastRecord() const {
-    return log_->records().empty() ? TrainingRecord() : log_->records().back();
+    return !log_ || log_->records().empty() ? TrainingRecord() : log_->records().back();
   }
 
  private:
@@ -80,6 +105,10 @@ class Training {
   bool BudgetSpent() const { return BudgetEnd().has_value(); }
   std::optional<TrainingEnd> BudgetEnd() const;
   bool ExaminationDue() const;
+  // Adds the time of rank 0, which decides for all ranks when they end.
+  void AddSeconds(double seconds) {
+    progress_.seconds += ranks_->Sum(ranks_->leads() ? seconds : 0.0);
+  }
   // Returns the success rate; writes the policy if it is the best so far.
   double Examine();
   Policy CurrentPolicy() const {
@@ -90,6 +119,7 @@ class Training {
   TrainingOptions options_;
   std::filesystem::path folder_;
   Examiner examine_;
+  Communicator* ranks_;
   Ppo ppo_;
   OutcomeWindow recent_;
   TrainingProgress progress_;
@@ -101,18 +131,20 @@ TrainingRecord Training::Iterate() {
   const std::int64_t samples = ppo_.samples();
   std::vector<Outcome> outcomes;
   ppo_.Collect(&outcomes);
+  outcomes = OutcomesOfAll(outcomes, ranks_);
   const double collected = SecondsSince(start);
   const UpdateReport update = ppo_.Update();
   const double seconds = SecondsSince(start);
   for (const Outcome& outcome : outcomes) recent_.Add(outcome);
   ++progress_.iteration;
   progress_.episodes += static_cast<std::int64_t>(outcomes.size());
-  progress_.seconds += seconds;
+  AddSeconds(seconds);
   TrainingRecord record = RecordOf(update);
   record.examined = ExaminationDue() ? Examine() : std::nan("");
-  progress_.seconds += SecondsSince(start) - seconds;
+  AddSeconds(SecondsSince(start) - seconds);
   record.samples_per_second = static_cast<double>(ppo_.samples() - samples) / seconds;
   record.learner_share = (seconds - collected) / seconds;
+  if (!log_) return record;
   log_->Append(record);
   core::Log(core::LogLevel::kInfo, "rl", "iteration ", progress_.iteration, ": ", ppo_.samples(),
             " samples, success ", record.success, ", return ", record.mean_return);
@@ -154,11 +186,13 @@ bool Training::ExaminationDue() const {
 
 double Training::Examine() {
   const Policy policy = CurrentPolicy();
-  const Examination found = examine_(policy);
+  Examination found = examine_(policy);
+  found.successes = static_cast<int>(ranks_->Sum(found.successes));
+  found.episodes = static_cast<int>(ranks_->Sum(found.episodes));
   const double rate = static_cast<double>(found.successes) / std::max(1, found.episodes);
   if (rate >= progress_.best) {
     progress_.best = rate;
-    WritePolicy(policy, folder_ / kPolicyFile);
+    if (ranks_->leads()) WritePolicy(policy, folder_ / kPolicyFile);
   }
   progress_.learnt = options_.success_target > 0.0 &&
                      WilsonInterval(found.successes, found.episodes).low >= options_.success_target;
@@ -182,6 +216,7 @@ std::optional<TrainingEnd> Training::BudgetEnd() const {
 
 void Training::Save() const {
   WriteCheckpoint(ppo_, progress_, recent_, options_.metadata, folder_ / kCheckpointFile);
+  if (!log_) return;
   if (progress_.best < 0.0) WritePolicy(CurrentPolicy(), folder_ / kPolicyFile);
   core::WriteFile(folder_ / kCurvesFile, TrainingCurves(options_.title, log_->records()));
 }
@@ -190,15 +225,20 @@ void Training::Save() const {
 
 TrainingResult TrainPolicy(VectorEnvironment* environment, const TrainingOptions& options,
                            const std::filesystem::path& folder, bool resume,
-                           const TrainingListener& report, const Examiner& examine) {
+                           const TrainingListener& report, const Examiner& examine,
+                           Communicator* ranks) {
+  if (ranks == nullptr) ranks = SingleProcess();
   CheckedRequest(options);
-  Training training(environment, options, folder, Prepare(folder, resume), examine);
+  const bool found = ranks->leads() && Prepare(folder, resume);
+  Training training(environment, options, folder, ranks->Sum(found ? 1.0 : 0.0) > 0.0, examine,
+                    ranks);
   std::optional<TrainingEnd> end = training.End();
   while (!end) {
     const TrainingRecord record = training.Iterate();
     end = training.End();
     if (report) report(record);
-    const bool cancelled = core::CancelRequested();  // read once: it may change at any time
+    // Read once: it may change at any time, and on each rank at another.
+    const bool cancelled = ranks->Sum(core::CancelRequested() ? 1.0 : 0.0) > 0.0;
     if (end || cancelled || training.SaveDue()) training.Save();
     if (cancelled) throw core::Cancelled();
   }

@@ -10,6 +10,8 @@
 
 namespace simwright::rl {
 
+class Communicator;
+
 // The files in a training's folder.
 constexpr const char* kCheckpointFile = "checkpoint.pt";  // to resume from
 constexpr const char* kPolicyFile = "policy.pt";          // policy_file.h
@@ -36,11 +38,15 @@ using Examiner = std::function<Examination(const Policy&)>;
 // starts if there is none; a resumed training ends with the same policy as an uninterrupted one.
 // Calls `report` after each iteration. With `examine` the policy file holds the best examined
 // policy, including the last; without it, the last.
+// `ranks`, if given, train together: all call this at once, each with its own environment, and each
+// examines its share of the episodes; rank 0 alone reads and writes the folder, except that each
+// reads the checkpoint. All end with the same policy.
 // Throws core::Error for invalid options, a folder that holds a training if `resume` is not set, a
 // checkpoint of another training, too many non-finite samples, or a full disk; and core::Cancelled
 // after Ctrl-C, once the iteration is complete and the checkpoint is written.
 TrainingResult TrainPolicy(VectorEnvironment* environment, const TrainingOptions& options,
                            const std::filesystem::path& folder, bool resume,
-                           const TrainingListener& report = {}, const Examiner& examine = {});
+                           const TrainingListener& report = {}, const Examiner& examine = {},
+                           Communicator* ranks = nullptr);
 
 }  // namespace simwright::rl

@@ -4,6 +4,8 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/log.h"
+#include "nn/tensor_bytes.h"
 #include "nn/tensor_file.h"
 #include "rl/metadata_tensor.h"
 #include "rl/ppo_learner.h"
@@ -58,38 +60,56 @@ RunningMoments Moments(const nn::NamedTensors& tensors, const std::string& name)
   return moments;
 }
 
-void PackCollector(const CollectorState& state, nn::NamedTensors* tensors) {
-  PackMoments(state.observations, "observations", tensors);
-  PackMoments(state.returns, "returns", tensors);
+// Packs what differs between ranks: episodes, generators and demonstrations.
+void PackOwn(const CollectorState& state, const LearnerState& learner, nn::NamedTensors* tensors) {
   (*tensors)["discounted_returns"] = PackDoubles(state.discounted_returns);
   (*tensors)["episode_rewards"] = PackDoubles(state.episode_rewards);
   (*tensors)["episode_steps"] = PackDoubles(state.episode_steps);
+  (*tensors)["collector_generator"] = PackBytes(state.generator);
+  (*tensors)["environment"] = PackBytes(state.environment);
+  (*tensors)["learner_generator"] = PackBytes(learner.generator);
+  if (!learner.shown.observations.defined()) return;
+  (*tensors)["shown.observations"] = learner.shown.observations;
+  (*tensors)["shown.actions"] = learner.shown.actions;
+}
+
+// Packs what is equal on all ranks.
+void PackShared(const CollectorState& state, const LearnerState& learner,
+                nn::NamedTensors* tensors) {
+  PackMoments(state.observations, "observations", tensors);
+  PackMoments(state.returns, "returns", tensors);
   // Doubles count exactly up to 9e15.
   const double counts[] = {static_cast<double>(state.samples), static_cast<double>(state.dropped)};
   (*tensors)["samples"] = PackDoubles(counts);
-  (*tensors)["collector_generator"] = PackBytes(state.generator);
-  (*tensors)["environment"] = PackBytes(state.environment);
-}
-
-CollectorState Collector(const nn::NamedTensors& tensors) {
-  const std::vector<double> counts = Doubles(tensors, "samples", 2);
-  return {Moments(tensors, "observations"),       Moments(tensors, "returns"),
-          Doubles(tensors, "discounted_returns"), Doubles(tensors, "episode_rewards"),
-          Doubles(tensors, "episode_steps"),      static_cast<std::int64_t>(counts[0]),
-          static_cast<std::int64_t>(counts[1]),   Bytes(tensors, "collector_generator"),
-          Bytes(tensors, "environment")};
-}
-
-void PackLearner(const LearnerState& state, nn::NamedTensors* tensors) {
-  (*tensors)["parameters"] = state.parameters;
-  (*tensors)["adam.means"] = state.gradient_means;
-  (*tensors)["adam.squares"] = state.gradient_squares;
-  const double numbers[] = {static_cast<double>(state.gradient_steps), state.learning_rate};
+  (*tensors)["parameters"] = learner.parameters;
+  (*tensors)["adam.means"] = learner.gradient_means;
+  (*tensors)["adam.squares"] = learner.gradient_squares;
+  const double numbers[] = {static_cast<double>(learner.gradient_steps), learner.learning_rate};
   (*tensors)["adam.steps_and_rate"] = PackDoubles(numbers);
-  (*tensors)["learner_generator"] = PackBytes(state.generator);
-  if (!state.shown.observations.defined()) return;
-  (*tensors)["shown.observations"] = state.shown.observations;
-  (*tensors)["shown.actions"] = state.shown.actions;
+}
+
+std::string RankName(int rank) {
+  return "rank." + std::to_string(rank);
+}
+
+// Returns the number of ranks that wrote a checkpoint.
+int RanksOf(const nn::NamedTensors& tensors) {
+  int ranks = 1;
+  while (tensors.contains(RankName(ranks))) ++ranks;
+  return ranks;
+}
+
+CollectorState Collector(const nn::NamedTensors& tensors, const nn::NamedTensors& own) {
+  const std::vector<double> counts = Doubles(tensors, "samples", 2);
+  return {Moments(tensors, "observations"),
+          Moments(tensors, "returns"),
+          Doubles(own, "discounted_returns"),
+          Doubles(own, "episode_rewards"),
+          Doubles(own, "episode_steps"),
+          static_cast<std::int64_t>(counts[0]),
+          static_cast<std::int64_t>(counts[1]),
+          Bytes(own, "collector_generator"),
+          Bytes(own, "environment")};
 }
 
 Demonstrations Shown(const nn::NamedTensors& tensors) {
@@ -98,15 +118,15 @@ Demonstrations Shown(const nn::NamedTensors& tensors) {
           TakeTensor(tensors, "shown.actions", torch::kFloat, 2)};
 }
 
-LearnerState Learner(const nn::NamedTensors& tensors) {
+LearnerState Learner(const nn::NamedTensors& tensors, const nn::NamedTensors& own) {
   const std::vector<double> numbers = Doubles(tensors, "adam.steps_and_rate", 2);
   return {TakeTensor(tensors, "parameters", torch::kFloat, 1),
           TakeTensor(tensors, "adam.means", torch::kFloat, 1),
           TakeTensor(tensors, "adam.squares", torch::kFloat, 1),
           static_cast<std::int64_t>(numbers[0]),
           numbers[1],
-          Bytes(tensors, "learner_generator"),
-          Shown(tensors)};
+          Bytes(own, "learner_generator"),
+          Shown(own)};
 }
 
 void PackOutcomes(const OutcomeWindow& recent, nn::NamedTensors* tensors) {
@@ -148,13 +168,39 @@ void CheckMetadata(const Metadata& wanted, const Metadata& found) {
   }
 }
 
+// Returns the tensors of a rank's own state: for rank 0 the file's own.
+nn::NamedTensors OwnTensors(const nn::NamedTensors& tensors, int rank) {
+  if (rank == 0) return tensors;
+  return nn::UnpackTensors(Bytes(tensors, RankName(rank)), RankName(rank));
+}
+
+void RestoreState(const nn::NamedTensors& tensors, Ppo* ppo) {
+  if (RanksOf(tensors) == ppo->ranks().size()) {
+    const nn::NamedTensors own = OwnTensors(tensors, ppo->ranks().rank());
+    ppo->Restore(Collector(tensors, own), Learner(tensors, own));
+    return;
+  }
+  core::Log(core::LogLevel::kInfo, "rl", "the checkpoint of ", RanksOf(tensors),
+            " ranks resumes on ", ppo->ranks().size(), ": episodes start afresh");
+  const CollectorState saved = Collector(tensors, tensors);
+  CollectorState collector = ppo->CollectorPart();
+  collector.observations = saved.observations;
+  collector.returns = saved.returns;
+  collector.samples = saved.samples;
+  collector.dropped = saved.dropped;
+  LearnerState learner = Learner(tensors, tensors);
+  learner.generator = ppo->LearnerPart().generator;
+  learner.shown = {};
+  ppo->Restore(collector, learner);
+}
+
 TrainingProgress Restore(const nn::NamedTensors& tensors, const Metadata& metadata, Ppo* ppo,
                          OutcomeWindow* recent) {
   const Metadata found = UnpackMetadata(TakeTensor(tensors, "facts", torch::kUInt8, 1));
   CheckMetadata(NetworkMetadata(*ppo), found);
   CheckMetadata(metadata, found);
   const std::vector<double> progress = Doubles(tensors, "progress", 5);
-  ppo->Restore(Collector(tensors), Learner(tensors));
+  RestoreState(tensors, ppo);
   AddOutcomes(tensors, recent);
   return {static_cast<std::int64_t>(progress[0]), static_cast<std::int64_t>(progress[1]),
           progress[2], progress[3], progress[4] != 0.0};
@@ -164,9 +210,20 @@ TrainingProgress Restore(const nn::NamedTensors& tensors, const Metadata& metada
 
 void WriteCheckpoint(const Ppo& ppo, const TrainingProgress& progress, const OutcomeWindow& recent,
                      const Metadata& metadata, const std::filesystem::path& path) {
+  const CollectorState collector = ppo.CollectorPart();
+  const LearnerState learner = ppo.LearnerPart();
   nn::NamedTensors tensors;
-  PackCollector(ppo.CollectorPart(), &tensors);
-  PackLearner(ppo.LearnerPart(), &tensors);
+  PackOwn(collector, learner, &tensors);
+  Communicator& ranks = ppo.ranks();
+  if (ranks.size() > 1) {
+    const std::vector<std::string> others =
+        ranks.AllGather(ranks.leads() ? std::string() : nn::PackTensors(tensors));
+    if (!ranks.leads()) return;
+    for (int rank = 1; rank < ranks.size(); ++rank) {
+      tensors[RankName(rank)] = PackBytes(others[static_cast<std::size_t>(rank)]);
+    }
+  }
+  PackShared(collector, learner, &tensors);
   PackOutcomes(recent, &tensors);
   const double numbers[] = {static_cast<double>(progress.iteration),
                             static_cast<double>(progress.episodes), progress.seconds, progress.best,
@@ -183,11 +240,13 @@ void BeginFromCheckpoint(const std::filesystem::path& path, Ppo* ppo) {
   try {
     CheckMetadata(NetworkMetadata(*ppo),
                   UnpackMetadata(TakeTensor(tensors, "facts", torch::kUInt8, 1)));
-    const CollectorState known = Collector(tensors);
+    const CollectorState known = Collector(tensors, tensors);
     CollectorState state = ppo->CollectorPart();
     state.observations = known.observations;
     state.returns = known.returns;
-    ppo->Restore(state, Learner(tensors));
+    LearnerState learner = Learner(tensors, tensors);
+    if (ppo->ranks().rank() > 0) learner.generator = ppo->LearnerPart().generator;
+    ppo->Restore(state, learner);
   } catch (const core::Error& error) {
     throw core::Error(error.what(), path.string(), "train from scratch");
   }

@@ -82,6 +82,12 @@ void WriteShard(const SceneShard& part, const fs::path& path) {
   writer.CommitSealed();
 }
 
+int SceneCountIn(const fs::path& path) {
+  const core::Hdf5Reader reader(path);
+  const std::vector<std::size_t> shape = reader.root().Shape("scenes");
+  return shape.empty() ? 0 : static_cast<int>(std::min<std::size_t>(shape[0], 1 << 30));
+}
+
 SceneShardFile::SceneShardFile(const fs::path& path) : path_(path) {
   if (fs::is_regular_file(path) && core::CheckSeal(path) == core::FileSeal::kBroken) {
     throw core::Error("it is damaged: its checksum does not match", path.string(),

@@ -61,6 +61,10 @@ struct SceneShard {
 // also for prompts whose number is neither 0 nor that of the scenes.
 void WriteShard(const SceneShard& part, const std::filesystem::path& path);
 
+// Returns the number of scenes in a shard's file, without verifying the file. Throws core::Error if
+// it is no HDF5 file with scenes.
+int SceneCountIn(const std::filesystem::path& path);
+
 // A shard in its file; scenes are read on demand. Every member throws core::Error, naming the file,
 // if it is missing, truncated, of another version, or inconsistent. Not thread-safe, not even for
 // different shards (core/hdf5).

@@ -39,6 +39,7 @@ const std::vector<Door> kDoors = {
      {"core/image", "core/depth_image", "asset_lift", "capture", "texture"}},
     {std::regex("^ceres/"), {"capture", "scene", "twin"}},
     {std::regex("^(torch|ATen)/"), {"nn"}},
+    {std::regex("^mpi\\.h$"), {"rl/mpi_communicator"}},
     {std::regex("^CLI/"), {"cli"}},
     {std::regex("^nanobind/"), {"python"}},
     {std::regex("^zip\\.h"), {"assets"}},

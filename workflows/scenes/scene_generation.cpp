@@ -8,10 +8,10 @@
 #include "core/json.h"
 #include "scene/dataset/generation.h"
 #include "scene/dataset/scene_dataset.h"
-#include "scene/dataset/shard_claim.h"
 #include "scene/scene_types/scene_types.h"
 #include "workflows/scenes/scene_assets.h"
 #include "workflows/scenes/scene_sheet.h"
+#include "workflows/scenes/shard_work.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
@@ -43,28 +43,23 @@ std::string AssetsText(const scene::AssetSet& asset_set, const scene::Vocabulary
   return core::JsonLine(json);
 }
 
-// Returns the shard in its current state, or an empty one.
-scene::SceneShard PartAt(const fs::path& path, const scene::Vocabulary& vocabulary,
-                         const scene::ShardOrigin& origin) {
-  if (!fs::exists(path)) return {vocabulary, origin, {}, {}};
-  scene::SceneShard part = scene::SceneShardFile(path).ReadAll();
-  if (!(part.vocabulary == vocabulary) || !part.origin.SameDataset(origin)) {
-    throw core::Error("it contains scenes of another type, seed, asset set or settings",
-                      path.string(), "generate into a new folder");
-  }
-  return part;
-}
-
-void MakePart(const scene::Generation& generation, int scenes, const fs::path& path,
-              scene::SceneShard part, core::Progress* progress) {
-  const size_t before = part.attempts.size();
-  try {
-    scene::ExtendShard(generation, scenes, &part, progress);
-  } catch (const core::Cancelled&) {
-    if (part.attempts.size() > before) scene::WriteShard(part, path);
-    throw;
-  }
-  scene::WriteShard(part, path);
+// Returns the dataset of a request, whose assets are `asset_set`.
+ShardedDataset DatasetOf(const SceneGenerationRequest& request, const scene::AssetSet& asset_set,
+                         const scene::SceneType& type) {
+  ShardedDataset dataset;
+  dataset.folder = request.output;
+  dataset.generation = {type.make(asset_set.Sizes()), &asset_set, {}};
+  dataset.generation.raw = request.raw;
+  if (request.time_step > 0.0)
+    dataset.generation.feasibility.settling.time_step = request.time_step;
+  dataset.vocabulary = VocabularyOf(type.make(scene::DefaultCategorySizes()));
+  dataset.origin.seed = request.seed;
+  dataset.origin.assets = AssetsText(asset_set, dataset.vocabulary);
+  dataset.origin.settings = scene::SettingsText(dataset.generation);
+  dataset.origin.program = SIMWRIGHT_VERSION;
+  dataset.scenes = request.count;
+  dataset.scenes_per_shard = request.part;
+  return dataset;
 }
 
 }  // namespace
@@ -120,38 +115,26 @@ SceneStatistics GenerateScenes(const SceneGenerationRequest& request, core::Prog
       progress);
   scene::AssetSet asset_set = scene::ReadAssetSet(folders);
   for (const std::string& category : request.hulls) asset_set.UseConvexHullCollision(category);
-  scene::Generation generation{type.make(asset_set.Sizes()), &asset_set, {}};
-  generation.raw = request.raw;
-  if (request.time_step > 0.0) generation.feasibility.settling.time_step = request.time_step;
-  scene::ShardOrigin origin;
-  origin.seed = request.seed;
-  origin.assets = AssetsText(asset_set, vocabulary);
-  origin.settings = scene::SettingsText(generation);
-  origin.program = SIMWRIGHT_VERSION;
+  const ShardedDataset sharded = DatasetOf(request, asset_set, type);
 
   progress->Stage("scenes", request.count);
-  int elsewhere = 0;
-  for (int first = 0; first < request.count; first += request.part) {
-    origin.part = first / request.part;
-    const int scenes = std::min(request.part, request.count - first);
-    const fs::path path = request.output / scene::ShardName(origin.part);
-    const scene::ShardClaim claim(path);
-    elsewhere += !claim.held();
-    if (!claim.held()) continue;
-    scene::SceneShard part = PartAt(path, vocabulary, origin);
-    for (int i = 0; i < std::min(scenes, part.SceneCount()); ++i) progress->Advance();
-    // A shard of an earlier version lacks prompts; they are added.
-    const bool has_prompts = part.prompts.size() == static_cast<size_t>(part.SceneCount());
-    if (part.SceneCount() >= scenes && has_prompts) continue;
-    MakePart(generation, scenes, path, std::move(part), progress);
-  }
+  ShardWork work(sharded, request.place, progress);
+  work.MakeUnclaimed();
+  if (request.place.leads() && request.place.world_size > 1) work.WaitForOthers();
   progress->Finish();
+  // One rank reports for all, and of an array the task that ends last.
+  if (!request.place.leads() || (request.place.array_tasks > 1 && work.elsewhere() > 0)) {
+    SceneStatistics unreported;
+    unreported.reported = false;
+    unreported.elsewhere = work.elsewhere();
+    return unreported;
+  }
 
   const scene::SceneDataset dataset(request.output);
   SceneStatistics statistics = StatisticsOf(dataset.Attempts());
   statistics.type = request.type;
   statistics.physics = !request.raw;
-  statistics.elsewhere = elsewhere;
+  statistics.elsewhere = work.elsewhere();
   core::WriteFile(request.output / "statistics.json", StatisticsJson(statistics));
   WriteSceneSheet(dataset, asset_set, request.output / "scenes.png");
   statistics.findings = std::move(findings);

@@ -13,6 +13,7 @@
 #include "tasks/task_file.h"
 #include "workflows/grasps/asset_grasps.h"
 #include "workflows/skills/backward_tuning.h"
+#include "workflows/skills/rank_training.h"
 #include "workflows/skills/subtask_training.h"
 
 namespace simwright::workflows {
@@ -52,6 +53,10 @@ void RequirePlacementRanges(const std::map<std::string, skills::PlacementRange>&
 }
 
 SkillRun RunOf(const TrainRequest& request) {
+  if (request.environments < request.ranks->size()) {
+    throw core::Error("there are more ranks than environments", "--envs",
+                      "give at least one environment a rank");
+  }
   SkillRun run;
   run.folder = request.output;
   run.set = ChooseTasks(tasks::ReadTaskFile(request.task_file), request.tasks,
@@ -96,6 +101,7 @@ class TaskTraining {
 
   TrainReport Train() {
     for (size_t k = 0; k < skills_.size(); ++k) Learn(k);
+    DismissRanks(request_);
     if (request_.backward_samples > 0) {
       for (size_t k = skills_.size() - 1; k-- > 0;) Tune(k);
     }
@@ -208,6 +214,11 @@ double TrainReport::success() const {
 
 TrainReport TrainTask(const TrainRequest& request, core::Progress* progress) {
   return TaskTraining(request, progress).Train();
+}
+
+void FollowTraining(const TrainRequest& request) {
+  const SkillRun run = RunOf(request);
+  FollowRankZero(request, run, PrepareSkills(run));
 }
 
 std::string TrainTable(const TrainReport& report) {

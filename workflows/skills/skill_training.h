@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "rl/communicator.h"
 #include "skills/skill_chain.h"
 #include "workflows/skills/skill_run.h"
 
@@ -46,6 +47,9 @@ struct TrainRequest {
   std::int64_t backward_samples = 120'000;
   std::uint64_t seed = 1;
   bool resume = false;
+  // The ranks that train together; `environments`, `samples` and the minibatches are of all of
+  // them.
+  rl::Communicator* ranks = rl::SingleProcess();
 };
 
 // The outcome of training a subtask further so that it ends where the next one can start.
@@ -98,6 +102,11 @@ struct TrainReport {
 // that lack an asset, or if another process trains there) and core::Cancelled, keeping all trained
 // results.
 TrainReport TrainTask(const TrainRequest& request, core::Progress* progress);
+
+// The part in TrainTask of the ranks other than the first, which calls that: trains with it, and
+// returns when it has nothing more to train. Everything else, such as evaluations and the tuning
+// for the next subtask, is rank 0's. Throws core::Error as TrainTask does.
+void FollowTraining(const TrainRequest& request);
 
 // Format the report for a terminal and for machines. report.json in the run's folder has the
 // latter.

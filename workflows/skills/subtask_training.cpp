@@ -10,6 +10,7 @@
 #include "rl/training.h"
 #include "skills/scripted_expert.h"
 #include "skills/skill_environment.h"
+#include "workflows/skills/rank_training.h"
 
 namespace simwright::workflows {
 namespace fs = std::filesystem;
@@ -151,32 +152,21 @@ Trained TrainSubtask(const TrainRequest& request, const SkillRun& run, const Run
     if (before.learnt || next_begun || !HasBudget(request, before)) return before;
     go_on = true;
   }
-  skills::SkillEnvironment environment(skill.skill, run.environments, pool);
-  const std::vector<skills::StartState> starts =
-      ExaminationStarts(*skill.evaluated, pool, request.seed);
-  const rl::TrainingOptions options = OptionsFor(request, run, skill);
   progress->Stage("train " + skill.name + place);
-  const rl::TrainingResult result = rl::TrainPolicy(
-      &environment, options, skill.folder, go_on,
-      [&](const rl::TrainingRecord& record) {
-        RequireValidPhysics(environment, skill.name, record.samples);
-        ReportProgress(record, options, progress);
-      },
-      [&](const rl::Policy& policy) {
-        const skills::SkillEvaluation found = skills::Evaluate(*skill.evaluated, policy, starts);
-        return rl::Examination{found.successes, kExamined};
-      });
+  const RankTraining training = TrainOnAllRanks(request, run, skill, pool, go_on, progress);
+  const rl::TrainingResult& result = training.result;
+  const rl::PpoOptions ppo = OptionsFor(request, run, skill).ppo;
   Trained trained;
   trained.samples = static_cast<std::int64_t>(result.last.samples);
   trained.seconds = result.last.seconds;
   trained.learnt = result.end == rl::TrainingEnd::kSuccess;
-  trained.shares = SharesOf(trained.samples, options.ppo, run.environments, run.options.action);
+  trained.shares = SharesOf(trained.samples, ppo, run.environments, run.options.action);
   core::Json text = {{"samples", trained.samples},
                      {"seconds", trained.seconds},
                      {"learnt", trained.learnt},
                      {"imitated", trained.shares.imitated},
                      {"critic_alone", trained.shares.critic_alone},
-                     {"physics_failures", environment.failures()}};
+                     {"physics_failures", training.failures}};
   core::WriteFile(done, core::JsonText(text));
   return trained;
 }
