@@ -97,16 +97,16 @@ def timed(path, motion):
         toppra.constraint.JointVelocityConstraint(np.stack([-velocity, velocity], axis=1)),
         toppra.constraint.JointAccelerationConstraint(np.stack([-acceleration, acceleration], axis=1)),
     ]
-    start = time.perf_counter()
+    start = time.process_time()
     trajectory = toppra.algorithm.TOPPRA(limits, path).compute_trajectory(0.0, 0.0)
-    law = time.perf_counter() - start
+    law = time.process_time() - start
     if trajectory is None:
         return None
-    start = time.perf_counter()
+    start = time.process_time()
     steps = int(np.ceil(trajectory.duration * motion["rate"]))
     moments = np.linspace(0.0, trajectory.duration, steps + 1)
     samples = [trajectory(moments, order) for order in range(3)]
-    sampling = time.perf_counter() - start
+    sampling = time.process_time() - start
     return {
         "duration": float(trajectory.duration),
         "law_seconds": law,
@@ -119,9 +119,9 @@ def timed(path, motion):
 def measure(motion, name):
     best = None
     for _ in range(REPEATS):
-        start = time.perf_counter()
+        start = time.process_time()
         path = PATHS[name](motion)
-        path_seconds = time.perf_counter() - start
+        path_seconds = time.process_time() - start
         row = timed(path, motion)
         if row is None:
             return None

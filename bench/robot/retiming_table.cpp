@@ -4,10 +4,10 @@
 // (bench/peers/toppra_retiming.py), which has no jerk limit, on the same motions.
 //   bench_retiming_table [--motions N=10] [--python PYTHON] [--folder DIR] [--only KIND]
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -50,7 +50,7 @@ struct Options {
 
 struct Timed {
   Retimed retimed;
-  double seconds = 0.0;  // to compute it
+  double seconds = 0.0;  // of the processor, to compute it
 };
 
 Timed TimedRetiming(const RobotModel& model, const RecordedPath& path, double speed_up,
@@ -60,10 +60,9 @@ Timed TimedRetiming(const RobotModel& model, const RecordedPath& path, double sp
   options.max_speed_up = speed_up;
   Timed timed;
   for (int i = 0; i < repeats; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     timed.retimed = Retime(path, joints.limits, joints.sliding, &model.arm, options);
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     timed.seconds = i == 0 ? seconds : std::min(timed.seconds, seconds);
   }
   return timed;
@@ -252,7 +251,7 @@ void CompareWithToppra(const Options& options) {
               "tolerance", "our path", "path", "best", "failed");
   for (auto& [name, sum] : rows) PrintDurations(name, sum);
   std::printf(
-      "\nSeconds of computing, ours in all; TOPP-RA's path + time law + samples at 1 kHz, without\n"
+      "\nSeconds of the processor, ours in all; TOPP-RA's path + time law + samples at 1 kHz, without\n"
       "a check. Ours / theirs: with its faster path.\n");
   std::printf("%-23s %8s   %24s   %24s %8s\n", "motion", "ours", "points", "tolerance", "ratio");
   for (auto& [name, sum] : rows) PrintSeconds(name, sum);
