@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kLeastFirst = 1e-9;  // smaller joint derivatives count as zero
 constexpr double kAnyAcceleration = 1e12;
-constexpr int kNewtonSteps = 40;
+constexpr int kNarrowings = 40;
 constexpr double kLeastWidth = 1e-9;  // of accelerations, 1/s^2
 
 // With x = (dw/dt)^2 and u = d2w/dt2, the acceleration of a joint is first * u + second * x, and x
@@ -87,7 +87,7 @@ class Reachability {
   double LargestBefore(Eigen::Index point, double next) const {
     const double per_step = 1.0 / (2.0 * path_.step);
     double x = LargestAlone(point);
-    for (int i = 0; i < kNewtonSteps; ++i) {
+    for (int i = 0; i < kNarrowings; ++i) {
       Bounds bounds = Accelerations(point, x);
       if (-x * per_step > bounds.lower) {
         bounds.lower = -x * per_step;

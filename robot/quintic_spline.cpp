@@ -14,6 +14,26 @@ constexpr double kQuinticPieces[6][6] = {
     {26, 50, 20, -20, -20, 10}, {1, 5, 10, 10, 5, -5},     {0, 0, 0, 0, 0, 1},
 };
 
+using Pieces = std::array<std::array<double, 6>, QuinticSpline::kSupport>;
+
+// Returns the pieces and their first three derivatives.
+constexpr std::array<Pieces, 4> DerivedPieces() {
+  std::array<Pieces, 4> derived{};
+  for (std::size_t piece = 0; piece < QuinticSpline::kSupport; ++piece) {
+    for (std::size_t power = 0; power < 6; ++power) {
+      derived[0][piece][power] = kQuinticPieces[piece][power];
+    }
+    for (std::size_t order = 1; order < 4; ++order) {
+      for (std::size_t power = 0; power < 5; ++power) {
+        derived[order][piece][power] =
+            static_cast<double>(power + 1) * derived[order - 1][piece][power + 1];
+      }
+    }
+  }
+  return derived;
+}
+constexpr std::array<Pieces, 4> kDerived = DerivedPieces();
+
 }  // namespace
 
 QuinticSpline::QuinticSpline(double spacing, Eigen::MatrixXd controls)
@@ -26,18 +46,11 @@ QuinticSpline::Basis QuinticSpline::At(double u, double spacing, Eigen::Index in
   basis.first = std::min(static_cast<Eigen::Index>(place), intervals - 1);
   const double x = place - static_cast<double>(basis.first);
   double scale = 1.0 / 120.0;
-  double falling[6];  // x^power derived: power (power - 1) ...
-  for (int power = 0; power < 6; ++power) {
-    falling[power] = 1.0;
-    for (int k = 0; k < derivative; ++k) falling[power] *= power - k;
-  }
   for (int k = 0; k < derivative; ++k) scale /= spacing;
   for (std::size_t piece = 0; piece < kSupport; ++piece) {
-    double sum = 0.0;
-    for (int power = 5; power >= derivative; --power) {
-      sum = sum * x + kQuinticPieces[piece][power] * falling[power];
-    }
-    basis.weights[piece] = scale * sum;
+    const auto& c = kDerived[static_cast<std::size_t>(derivative)][piece];
+    basis.weights[piece] =
+        scale * (c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5])))));
   }
   return basis;
 }

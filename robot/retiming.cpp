@@ -321,11 +321,14 @@ JointTrajectory Retiming::Sample(const QuinticSpline& curve, const RestToRest& e
     matrix->resize(steps + 1, curve.joints());
   }
   parameters->clear();
+  const double h = 1.0 / options_.rate;
+  double w = 0.0, guess = 0.0;
   for (Eigen::Index i = 0; i <= steps; ++i) {
     const double time = static_cast<double>(i) / options_.rate;
-    const double w = i == steps ? ends.length() : table.Parameter(time);
+    w = i == steps ? ends.length() : table.Parameter(time, guess);
     const Eigen::Vector4d u = ends.At(w);
     const Eigen::Vector3d rate = law->Rates(w);
+    guess = w + h * (rate[0] + h * (rate[1] / 2.0 + h * rate[2] / 6.0));
     const double first = u[1] * rate[0];
     const double second = u[2] * rate[0] * rate[0] + u[1] * rate[1];
     const QuinticSpline::Jet jet = curve.Values(u[0]);

@@ -6,6 +6,9 @@
 namespace simwright::robot {
 namespace {
 
+constexpr int kNewtonSteps = 4;
+constexpr double kSmallStep = 1e-7;  // of the knots' spacing
+
 // The pieces of the cardinal cubic B-spline over one interval, times 6: coefficients of 1, x, x^2,
 // x^3.
 constexpr double kCubicPieces[4][4] = {{1, -3, 3, -1}, {4, 0, -6, 3}, {1, 3, 3, -3}, {0, 0, 0, 1}};
@@ -115,6 +118,18 @@ double TimeTable::Parameter(double t) const {
     w = next;
   }
   return w;
+}
+
+double TimeTable::Parameter(double t, double guess) const {
+  if (t <= 0.0 || t >= duration()) return Parameter(t);
+  double w = guess;
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const double step = (Time(w) - t) / law_.At(w).value;
+    w -= step;
+    // Newton's method squares the error: the next step would be of the size of rounding.
+    if (std::abs(step) < kSmallStep * law_.spacing()) return std::clamp(w, 0.0, law_.length());
+  }
+  return Parameter(t);
 }
 
 }  // namespace simwright::robot

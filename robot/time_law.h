@@ -51,6 +51,8 @@ class TimeTable {
   double duration() const { return knot_times_.back(); }  // s
   double Time(double w) const;                            // 0 at w = 0
   double Parameter(double t) const;                       // the inverse
+  // Returns the same, faster if `guess` is near.
+  double Parameter(double t, double guess) const;
 
  private:
   TimeLaw law_;

@@ -17,9 +17,11 @@ constexpr std::array<double, 4> kLowered = {0.7, 0.85, 0.93, 0.98};
 // Coefficient k shapes the intervals k - kReach to k.
 constexpr std::size_t kReach = TimeLaw::kSupport - 1;
 constexpr int kTriesAStretch = 8;
-constexpr Eigen::Index kGridSteps = 8;    // grid steps between the finest knots
+constexpr Eigen::Index kGridSteps = 16;  // grid steps between the finest knots
+// Part of the unused share that may be used between the points that the search looks at.
+constexpr double kSlack = 0.75;
 constexpr double kPeakMargin = 0.999;     // of the share that a peak needs
-constexpr Eigen::Index kFirstStride = 4;  // of the law that the search starts from
+constexpr Eigen::Index kFirstStride = 8;  // of the law that the search starts from
 
 // Returns every `stride`-th point of a path.
 PathDerivatives Thinned(const PathDerivatives& path, Eigen::Index stride) {
@@ -64,9 +66,11 @@ bool TimeLawSearch::Find(double share, int levels) {
     FindLeast();
     if (level == 0) Begin();
     if (!Raise()) return false;
-    Lower();
+    Lower(-1);
   }
-  return true;
+  stride_ = 1;
+  for (double& of_point : shares_) of_point += kSlack * (1.0 - share);
+  return Repair();
 }
 
 bool TimeLawSearch::Tighten(const std::vector<LimitPeak>& peaks) {
@@ -79,7 +83,15 @@ bool TimeLawSearch::Tighten(const std::vector<LimitPeak>& peaks) {
       share = std::min(share, kPeakMargin * share_ / peak.ratio);
     }
   }
-  return Raise();
+  return Repair();
+}
+
+// Raises the law where it exceeds a limit, then lowers it around there.
+bool TimeLawSearch::Repair() {
+  const long before = change_;
+  if (!Raise()) return false;
+  if (change_ > before) Lower(before);
+  return true;
 }
 
 std::size_t TimeLawSearch::intervals() const {
@@ -105,11 +117,11 @@ TimeLaw::Slowness TimeLawSearch::SlownessAt(std::size_t interval, Eigen::Index p
   return slowness;
 }
 
-// Adapts the search to the knots of a level. The coarser they are, the fewer points count, but all
-// of them count on the last level.
+// Adapts the search to the knots of a level. The coarser they are, the fewer points count; all of
+// them count in the end.
 void TimeLawSearch::SetLevel(int level, int levels) {
   per_interval_ = kGridSteps << (kTimeLawLevels - 1 - level);
-  stride_ = level + 1 < levels ? Eigen::Index(1) << (kTimeLawLevels - 1 - level) : 1;
+  stride_ = Eigen::Index(2) << (levels - 1 - level);
   bases_.clear();
   for (Eigen::Index i = 0; i <= per_interval_; ++i) {
     bases_.push_back(law_.BasisAt(static_cast<double>(i) / static_cast<double>(per_interval_)));
@@ -184,9 +196,11 @@ bool TimeLawSearch::Raise() {
     std::vector<double> factors(c.size(), 1.0);
     if (FindRaises(changed, &factors) <= 1.0) return true;
     std::fill(changed.begin(), changed.end(), 0);
+    ++change_;
     for (std::size_t k = 0; k < c.size(); ++k) {
       if (factors[k] <= 1.0) continue;
       c[k] *= factors[k];
+      changes_[k] = change_;
       if (c[k] > kMostSlowness) return false;
       for (std::size_t i = k - std::min(k, kReach); i <= k; ++i) {
         if (i < changed.size()) changed[i] = 1;
@@ -250,10 +264,11 @@ long TimeLawSearch::LastChange(Stretch stretch) const {
                            changes_.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
-// Lowers stretches twice, the second time only where a coefficient has changed since the first.
-void TimeLawSearch::Lower() {
+// Lowers stretches around which a coefficient has changed after the change `since`: twice, the
+// second time where one has changed since the first.
+void TimeLawSearch::Lower(long since) {
   const std::size_t size = law_.coefficients().size();
-  std::vector<long> tried(kLowered.size() * kCounts.size() * size, -1);
+  std::vector<long> tried(kLowered.size() * kCounts.size() * size, since);
   for (int pass = 0; pass < 2; ++pass) {
     auto last_try = tried.begin();
     for (const double factor : kLowered) {

@@ -57,7 +57,8 @@ class TimeLawSearch {
   void Begin();
   bool Raise();
   double FindRaises(const std::vector<char>& changed, std::vector<double>* factors) const;
-  void Lower();
+  void Lower(long since);
+  bool Repair();
   bool TryLower(Stretch stretch, double factor);
   bool HoldsOn(std::size_t first, std::size_t last);
   long LastChange(Stretch stretch) const;

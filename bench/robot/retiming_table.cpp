@@ -251,7 +251,8 @@ void CompareWithToppra(const Options& options) {
               "tolerance", "our path", "path", "best", "failed");
   for (auto& [name, sum] : rows) PrintDurations(name, sum);
   std::printf(
-      "\nSeconds of the processor, ours in all; TOPP-RA's path + time law + samples at 1 kHz, without\n"
+      "\nSeconds of the processor, ours in all; TOPP-RA's path + time law + samples at 1 kHz, "
+      "without\n"
       "a check. Ours / theirs: with its faster path.\n");
   std::printf("%-23s %8s   %24s   %24s %8s\n", "motion", "ours", "points", "tolerance", "ratio");
   for (auto& [name, sum] : rows) PrintSeconds(name, sum);
