@@ -424,8 +424,7 @@ Retimed Retiming::Run() {
   double share = kShare;
   for (int i = 0; i < kRefinements; ++i, share *= kLessShare) {
     // If jerk keeps peaking between the grid points, coarser knots are used.
-    const int levels = std::max(1, kTimeLawLevels - i / kTriesALevel);
-    const bool found = search.Find(share, levels);
+    const bool found = search.Find(share, i / kTriesALevel);
     if (found && Finish(curve, ends, &search, &result)) return result;
     if (!found || result.stretch > options_.max_stretch) FailLimits(derivatives, ends);
   }

@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace simwright::robot {
 namespace {
 
-constexpr double kCoarsestSpacing = 0.03;  // s between the coarsest knots of the slowness
+constexpr double kCoarsestSpacing = 0.24;  // s between the coarsest knots of the slowness
+constexpr int kFirstLevel = 3;             // where the search starts, unless jerk bounds the motion
+// A law that takes longer than this times the optimum without jerk is bounded by jerk.
+constexpr double kBoundedByJerk = 1.1;
 constexpr int kRaisingRounds = 400;
 constexpr double kLargestRaise = 1.5;  // in one iteration
+constexpr double kTinyRaise = 1e-9;    // beyond rounding
 constexpr double kMostSlowness = 1e4;
 constexpr std::array<std::size_t, 6> kCounts = {32, 16, 8, 4, 2, 1};  // coefficients of a stretch
 constexpr std::array<double, 4> kLowered = {0.7, 0.85, 0.93, 0.98};
@@ -21,7 +26,7 @@ constexpr Eigen::Index kGridSteps = 16;  // grid steps between the finest knots
 // Part of the unused share that may be used between the points that the search looks at.
 constexpr double kSlack = 0.75;
 constexpr double kPeakMargin = 0.999;     // of the share that a peak needs
-constexpr Eigen::Index kFirstStride = 8;  // of the law that the search starts from
+constexpr Eigen::Index kFirstStride = 8;  // of the law that the search starts from, and the largest
 
 // Returns every `stride`-th point of a path.
 PathDerivatives Thinned(const PathDerivatives& path, Eigen::Index stride) {
@@ -40,6 +45,14 @@ std::vector<JointLimits> Shared(std::vector<JointLimits> limits, double share) {
   return limits;
 }
 
+// Returns the weight of coefficient `i` of `count` in a move: a bump, without abrupt ends, that
+// asks for little jerk.
+double Taper(std::size_t i, std::size_t count) {
+  if (count < 3) return 1.0;
+  const double place = (static_cast<double>(i) + 1.0) / (static_cast<double>(count) + 1.0);
+  return 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * place);
+}
+
 }  // namespace
 
 Eigen::Index TimeLawGrid(double length) {
@@ -56,20 +69,33 @@ TimeLawSearch::TimeLawSearch(const PathDerivatives& path, double length,
       fastest_(std::move(fastest)),
       law_(length, kCoarsestSpacing) {}
 
-bool TimeLawSearch::Find(double share, int levels) {
-  law_ = TimeLaw(law_.length(), kCoarsestSpacing);
+bool TimeLawSearch::Find(double share, int coarser) {
   share_ = share;
-  shares_.assign(fastest_.size(), share);
-  for (int level = 0; level < levels; ++level) {
-    if (level > 0) law_.Refine();
-    SetLevel(level, levels);
+  const int last = std::max(kFirstLevel, kTimeLawLevels - 1 - coarser);
+  if (!SearchFrom(kFirstLevel, last)) return false;
+  const double seconds = TimeTable(law_).duration();
+  if (seconds <= kBoundedByJerk * least_seconds_) return true;
+  // Where ramps of acceleration take longer than the knots are apart, moves of few coefficients
+  // soon ask for too much jerk.
+  const TimeLaw law = law_;
+  if (!SearchFrom(0, last) || TimeTable(law_).duration() > seconds) law_ = law;
+  return true;
+}
+
+bool TimeLawSearch::SearchFrom(int first, int last) {
+  law_ = TimeLaw(law_.length(), kCoarsestSpacing);
+  for (int level = 0; level < first; ++level) law_.Refine();
+  shares_.assign(fastest_.size(), share_);
+  for (int level = first; level <= last; ++level) {
+    if (level > first) law_.Refine();
+    SetLevel(level, last);
     FindLeast();
-    if (level == 0) Begin();
-    if (!Raise()) return false;
+    if (level == first) Begin();
+    if (!MeetLimits()) return false;
     Lower(-1);
   }
   stride_ = 1;
-  for (double& of_point : shares_) of_point += kSlack * (1.0 - share);
+  for (double& share : shares_) share += kSlack * (1.0 - share_);
   return Repair();
 }
 
@@ -89,8 +115,28 @@ bool TimeLawSearch::Tighten(const std::vector<LimitPeak>& peaks) {
 // Raises the law where it exceeds a limit, then lowers it around there.
 bool TimeLawSearch::Repair() {
   const long before = change_;
-  if (!Raise()) return false;
+  if (!MeetLimits()) return false;
   if (change_ > before) Lower(before);
+  return true;
+}
+
+// Raises the law until all limits hold: where they are exceeded or, if that is faster, as a whole,
+// which adds no jerk.
+bool TimeLawSearch::MeetLimits() {
+  const TimeLaw before = law_;
+  const long change = change_;
+  std::vector<double> factors(law_.coefficients().size(), 1.0);
+  const double worst = FindRaises(std::vector<char>(intervals(), 1), &factors);
+  if (worst <= 1.0) return true;
+  const bool found = Raise();
+  TimeLaw whole = before;
+  for (double& c : whole.coefficients()) c *= (1.0 + kTinyRaise) * worst;
+  const std::vector<double>& c = whole.coefficients();
+  const bool holds = *std::max_element(c.begin(), c.end()) <= kMostSlowness;
+  if (!holds || (found && TimeTable(law_).duration() <= TimeTable(whole).duration())) return found;
+  law_ = whole;
+  change_ = change;
+  std::fill(changes_.begin(), changes_.end(), change);
   return true;
 }
 
@@ -119,9 +165,9 @@ TimeLaw::Slowness TimeLawSearch::SlownessAt(std::size_t interval, Eigen::Index p
 
 // Adapts the search to the knots of a level. The coarser they are, the fewer points count; all of
 // them count in the end.
-void TimeLawSearch::SetLevel(int level, int levels) {
+void TimeLawSearch::SetLevel(int level, int last) {
   per_interval_ = kGridSteps << (kTimeLawLevels - 1 - level);
-  stride_ = Eigen::Index(2) << (levels - 1 - level);
+  stride_ = std::min(kFirstStride, Eigen::Index(2) << (last - level));
   bases_.clear();
   for (Eigen::Index i = 0; i <= per_interval_; ++i) {
     bases_.push_back(law_.BasisAt(static_cast<double>(i) / static_cast<double>(per_interval_)));
@@ -152,11 +198,13 @@ void TimeLawSearch::Begin() {
   const std::vector<double> speeds = MaxPathSpeeds(path, Shared(limits_, share_), fastest);
   std::vector<double>& c = law_.coefficients();
   std::vector<double> sum(c.size(), 0.0), weight(c.size(), 0.0);
+  least_seconds_ = 0.0;
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     // Coefficient k belongs to knot k - 1.
     const double place = path.step * static_cast<double>(i) / law_.spacing() + 1.0;
     const auto k = std::min(static_cast<std::size_t>(std::lround(place)), c.size() - 1);
     sum[k] += 1.0 / std::max(speeds[i], 1e-3);
+    if (i > 0) least_seconds_ += 2.0 * path.step / std::max(speeds[i - 1] + speeds[i], 1e-3);
     weight[k] += 1.0;
   }
   for (std::size_t k = 0; k < c.size(); ++k) {
@@ -239,7 +287,9 @@ bool TimeLawSearch::TryLower(Stretch stretch, double factor) {
   for (std::size_t i = 0; i < stretch.count; ++i) {
     const std::size_t k = stretch.first + i;
     before[i] = c[k];
-    const double lower = std::min(c[k], least_[k] + factor * std::max(0.0, c[k] - least_[k]));
+    const double taper = Taper(i, stretch.count);
+    const double lower =
+        std::min(c[k], c[k] - taper * (1.0 - factor) * std::max(0.0, c[k] - least_[k]));
     lowered = lowered || c[k] - lower > 1e-4;
     c[k] = lower;
   }

@@ -11,7 +11,7 @@
 
 namespace simwright::robot {
 
-constexpr int kTimeLawLevels = 3;  // most levels of knots
+constexpr int kTimeLawLevels = 6;  // of knots, each with half the spacing of the one before
 
 // Returns the number of steps of the search's grid for a path of `length`; the knots, where jerk
 // peaks, lie on the grid.
@@ -35,8 +35,9 @@ class TimeLawSearch {
   TimeLawSearch(const PathDerivatives& path, double length, const std::vector<JointLimits>& limits,
                 std::vector<double> fastest);
 
-  // Searches anew. Returns false if no law was found: then law() is the slowest that was tried.
-  bool Find(double share, int levels = kTimeLawLevels);
+  // Searches anew, without the `coarser` finest levels. Returns false if no law was found: then
+  // law() is the slowest that was tried.
+  bool Find(double share, int coarser = 0);
   // Lowers the share around the peaks of the found law, so that they fall to the share that was
   // asked for, and slows the law accordingly. Returns false as Find does.
   bool Tighten(const std::vector<LimitPeak>& peaks);
@@ -52,9 +53,11 @@ class TimeLawSearch {
   std::size_t intervals() const;
   Eigen::Index EndOf(std::size_t interval) const;
   TimeLaw::Slowness SlownessAt(std::size_t interval, Eigen::Index point) const;
-  void SetLevel(int level, int levels);
+  bool SearchFrom(int first, int last);
+  void SetLevel(int level, int last);
   void FindLeast();
   void Begin();
+  bool MeetLimits();
   bool Raise();
   double FindRaises(const std::vector<char>& changed, std::vector<double>* factors) const;
   void Lower(long since);
@@ -69,6 +72,7 @@ class TimeLawSearch {
   std::vector<double> fastest_;  // (points)
   std::vector<double> shares_;   // (points) of the limits
   double share_ = 1.0;
+  double least_seconds_ = 0.0;  // without jerk
   TimeLaw law_;
   std::vector<double> least_;           // lower bound of each coefficient
   Eigen::Index per_interval_ = 1;       // points

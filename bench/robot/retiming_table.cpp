@@ -71,13 +71,14 @@ Timed TimedRetiming(const RobotModel& model, const RecordedPath& path, double sp
 void PrintRow(const RobotModel& model, const Kind& kind, int motions) {
   const RetimedJoints joints = JointsToRetime(model);
   double stretch = 0.0, least = 0.0, longest = 0.0, turn = 0.0, tool = 0.0, seconds = 0.0,
-         ratio = 0.0;
+         fastest = 0.0, ratio = 0.0;
   int accepted = 0;
   for (int i = 0; i < motions; ++i) {
     const RecordedPath path = MakeMotion(model, kind.kind, kSeconds, static_cast<std::uint64_t>(i));
     const Timed timed = TimedRetiming(model, path, 1.0, 1);
     const Retimed& retimed = timed.retimed;
     seconds += timed.seconds;
+    fastest += TimedRetiming(model, path, kAnySpeedUp, 1).retimed.stretch / motions;
     const LimitReport report = CheckLimits(retimed.trajectory, joints.limits);
     accepted += report.accepted();
     for (const JointLimitReport& joint : report.joints) {
@@ -89,17 +90,17 @@ void PrintRow(const RobotModel& model, const Kind& kind, int motions) {
     turn = std::max(turn, retimed.deviations.maxCoeff());
     tool = std::max(tool, retimed.tool_deviation);
   }
-  std::printf("%-8s %-14s %3d/%-3d %6.2f %6.2f %6.2f %8.2f %7.2f %7.3f %8.3f\n", kind.name,
-              model.name.c_str(), accepted, motions, least, stretch, longest, 1e3 * turn,
+  std::printf("%-8s %-14s %3d/%-3d %6.2f %6.2f %6.2f %8.3f %8.2f %7.2f %7.3f %8.3f\n", kind.name,
+              model.name.c_str(), accepted, motions, least, stretch, longest, fastest, 1e3 * turn,
               1e3 * tool, ratio, seconds / motions);
 }
 
 void PrintAtRecordedSpeed(const Options& options) {
   std::printf(
       "10 s of motion at 60 Hz to 1 kHz, at most at the recording's speed; longer: times the\n"
-      "recording; least: required by the velocity limits alone\n");
-  std::printf("%-8s %-14s %-7s %6s %6s %6s %8s %7s %7s %8s\n", "motion", "robot", "passed", "least",
-              "longer", "most", "mrad", "mm", "limits", "seconds");
+      "recording; least: required by the velocity limits alone; fastest: longer, at any speed\n");
+  std::printf("%-8s %-14s %-7s %6s %6s %6s %8s %8s %7s %7s %8s\n", "motion", "robot", "passed",
+              "least", "longer", "most", "fastest", "mrad", "mm", "limits", "seconds");
   for (const Kind& kind : kKinds) {
     if (!options.only.empty() && options.only != kind.name) continue;
     for (const bool on_base : {false, true}) PrintRow(Panda(on_base), kind, options.motions);
