@@ -174,11 +174,11 @@ struct Comparison {
   std::map<std::string, double> durations, path_seconds, law_seconds, sample_seconds, most_share;
 };
 
-constexpr const char* kPaths[] = {"points", "tolerance", "ours"};
+constexpr const char* kVariants[] = {"points", "points_fine", "tolerance_fine", "ours_fine"};
 
 void Add(const Contest& contest, const core::Json& peer, Comparison* sum) {
-  for (const char* path : kPaths) {
-    if (!peer.at(path).is_object()) {  // TOPP-RA found none: the motion does not count
+  for (const char* variant : kVariants) {
+    if (!peer.at(variant).is_object()) {  // TOPP-RA found none: the motion does not count
       ++sum->failed;
       return;
     }
@@ -187,13 +187,13 @@ void Add(const Contest& contest, const core::Json& peer, Comparison* sum) {
   sum->accepted += contest.accepted;
   sum->duration += contest.duration;
   sum->seconds += contest.seconds;
-  for (const char* path : kPaths) {
-    const core::Json& row = peer.at(path);
-    sum->durations[path] += row.at("duration").get<double>();
-    sum->path_seconds[path] += row.at("path_seconds").get<double>();
-    sum->law_seconds[path] += row.at("law_seconds").get<double>();
-    sum->sample_seconds[path] += row.at("sample_seconds").get<double>();
-    double& share = sum->most_share[path];
+  for (const char* variant : kVariants) {
+    const core::Json& row = peer.at(variant);
+    sum->durations[variant] += row.at("duration").get<double>();
+    sum->path_seconds[variant] += row.at("path_seconds").get<double>();
+    sum->law_seconds[variant] += row.at("law_seconds").get<double>();
+    sum->sample_seconds[variant] += row.at("sample_seconds").get<double>();
+    double& share = sum->most_share[variant];
     share = std::max({share, row.at("velocity_share").get<double>(),
                       row.at("acceleration_share").get<double>()});
   }
@@ -204,25 +204,19 @@ void PrintDurations(const std::string& name, Comparison& sum) {
   double best = 1e9;
   std::printf("%-23s %3d/%-3d %7.3f", name.c_str(), sum.accepted, sum.motions,
               sum.duration / count);
-  for (const char* path : kPaths) {
-    best = std::min(best, sum.durations[path]);
-    std::printf(" %8.3f (%4.2f)", sum.durations[path] / count, sum.most_share[path]);
+  for (const char* variant : kVariants) {
+    best = std::min(best, sum.durations[variant]);
+    std::printf(" %7.3f (%4.2f)", sum.durations[variant] / count, sum.most_share[variant]);
   }
-  std::printf(" %8.2f %8.2f %6d\n", sum.duration / sum.durations["ours"], sum.duration / best,
+  std::printf(" %8.2f %8.2f %6d\n", sum.duration / sum.durations["ours_fine"], sum.duration / best,
               sum.failed);
 }
 
 void PrintSeconds(const std::string& name, Comparison& sum) {
-  const double count = sum.motions;
-  std::printf("%-23s %8.4f", name.c_str(), sum.seconds / count);
-  double least = 1e9;
-  for (const char* path : {"points", "tolerance"}) {
-    const double total = sum.path_seconds[path] + sum.law_seconds[path] + sum.sample_seconds[path];
-    least = std::min(least, total);
-    std::printf("   %6.4f + %6.4f + %6.4f", sum.path_seconds[path] / count,
-                sum.law_seconds[path] / count, sum.sample_seconds[path] / count);
-  }
-  std::printf(" %8.2f\n", sum.seconds / least);
+  const double path = sum.path_seconds["points"], law = sum.law_seconds["points"],
+               samples = sum.sample_seconds["points"], count = sum.motions;
+  std::printf("%-23s %8.4f   %6.4f + %6.4f + %6.4f %8.2f\n", name.c_str(), sum.seconds / count,
+              path / count, law / count, samples / count, sum.seconds / (path + law + samples));
 }
 
 void CompareWithToppra(const Options& options) {
@@ -243,19 +237,18 @@ void CompareWithToppra(const Options& options) {
     Add(contests[i], peers.at(i), &rows.back().second);
   }
   std::printf(
-      "\nAt the limits, mean durations in s; TOPP-RA, without a jerk limit, on the spline through\n"
-      "the recorded points, on a smoothing spline that deviates as far as ours, and on our path;\n"
-      "in brackets its largest share of a limit of velocity or acceleration. Ours / theirs: on "
-      "our\n"
-      "path, and on its best path.\n");
-  std::printf("%-23s %-7s %7s %15s %15s %15s %8s %8s %6s\n", "motion", "passed", "ours", "points",
-              "tolerance", "our path", "path", "best", "failed");
+      "\nAt the limits, mean durations in s; TOPP-RA, without a jerk limit: on the spline through\n"
+      "the recorded points, with its own grid and with a fine one; fine, on a smoothing spline "
+      "that\n"
+      "deviates as far as ours and on our path; in brackets its largest share of a limit of\n"
+      "velocity or acceleration. Ours / theirs: on our path, and with its best.\n");
+  std::printf("%-23s %-7s %7s %14s %14s %14s %14s %8s %8s %6s\n", "motion", "passed", "ours",
+              "points", "fine", "tolerance", "our path", "path", "best", "failed");
   for (auto& [name, sum] : rows) PrintDurations(name, sum);
   std::printf(
-      "\nSeconds of the processor, ours in all; TOPP-RA's path + time law + samples at 1 kHz, "
-      "without\n"
-      "a check. Ours / theirs: with its faster path.\n");
-  std::printf("%-23s %8s   %24s   %24s %8s\n", "motion", "ours", "points", "tolerance", "ratio");
+      "\nSeconds of the processor, ours with the check; TOPP-RA's for points with its own grid:\n"
+      "path + time law + samples at 1 kHz.\n");
+  std::printf("%-23s %8s   %24s %8s\n", "motion", "ours", "TOPP-RA", "ratio");
   for (auto& [name, sum] : rows) PrintSeconds(name, sum);
 }
 
