@@ -78,7 +78,10 @@ bool TimeLawSearch::Find(double share, int coarser) {
   // Where ramps of acceleration take longer than the knots are apart, moves of few coefficients
   // soon ask for too much jerk.
   const TimeLaw law = law_;
-  if (!SearchFrom(0, last) || TimeTable(law_).duration() > seconds) law_ = law;
+  if (!SearchFrom(0, last) || TimeTable(law_).duration() > seconds) {
+    law_ = law;
+    CountAllPoints(last);
+  }
   return true;
 }
 
@@ -94,9 +97,16 @@ bool TimeLawSearch::SearchFrom(int first, int last) {
     if (!MeetLimits()) return false;
     Lower(-1);
   }
-  stride_ = 1;
-  for (double& share : shares_) share += kSlack * (1.0 - share_);
+  CountAllPoints(last);
   return Repair();
+}
+
+// Adapts the search to the last level and to a look at all points.
+void TimeLawSearch::CountAllPoints(int last) {
+  SetLevel(last, last);
+  FindLeast();
+  stride_ = 1;
+  shares_.assign(fastest_.size(), share_ + kSlack * (1.0 - share_));
 }
 
 bool TimeLawSearch::Tighten(const std::vector<LimitPeak>& peaks) {

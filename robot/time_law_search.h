@@ -35,7 +35,7 @@ class TimeLawSearch {
   TimeLawSearch(const PathDerivatives& path, double length, const std::vector<JointLimits>& limits,
                 std::vector<double> fastest);
 
-  // Searches anew, without the `coarser` finest levels. Returns false if no law was found: then
+  // Starts a search, without the `coarser` finest levels. Returns false if no law was found: then
   // law() is the slowest that was tried.
   bool Find(double share, int coarser = 0);
   // Lowers the share around the peaks of the found law, so that they fall to the share that was
@@ -55,6 +55,7 @@ class TimeLawSearch {
   TimeLaw::Slowness SlownessAt(std::size_t interval, Eigen::Index point) const;
   bool SearchFrom(int first, int last);
   void SetLevel(int level, int last);
+  void CountAllPoints(int last);
   void FindLeast();
   void Begin();
   bool MeetLimits();
