@@ -243,13 +243,18 @@ void AddSlowed(ExportReport* report) {
 void AddFaster(ExportReport* report) {
   if (report->least_stretch >= 1.0) return;
   char shares[64];
-  std::snprintf(shares, sizeof(shares), "%.2f to %.2f", report->least_stretch, report->stretch);
+  if (report->episodes > 1) {
+    std::snprintf(shares, sizeof(shares), "the motions take %.2f to %.2f", report->least_stretch,
+                  report->stretch);
+  } else {
+    std::snprintf(shares, sizeof(shares), "the motion takes %.2f", report->stretch);
+  }
   core::Finding& finding = report->findings.emplace_back();
   finding.code = "export-faster";
   finding.severity = core::Severity::kInfo;
-  finding.sentence = std::string("motions take ") + shares +
-                     " times as long as their recordings: grasps and other contacts were recorded "
-                     "at the slower pace, and their replay at this one succeeded in simulation";
+  finding.sentence = std::string(shares) +
+                     " times as long as recorded: grasps and other contacts were recorded at the "
+                     "slower pace, and their replay at this one succeeded in simulation";
   finding.remedy = "use --pace recorded if a real contact needs the recorded pace";
   finding.figure = report->least_stretch;
 }
