@@ -72,11 +72,29 @@ TimeLawSearch::TimeLawSearch(const PathDerivatives& path, double length,
 bool TimeLawSearch::Find(double share, int coarser) {
   share_ = share;
   const int last = std::max(kFirstLevel, kTimeLawLevels - 1 - coarser);
+  if (!SearchAll(last)) return false;
+  const double recorded = law_.length();
+  const bool faster = *std::max_element(fastest_.begin(), fastest_.end()) > 1.0;
+  if (!faster || TimeTable(law_).duration() <= recorded) return true;
+  // A motion that limits make slower than its recording: the law that is not faster anywhere
+  // may be the better optimum.
+  const TimeLaw law = law_;
+  std::vector<double> fastest = fastest_;
+  for (double& pace : fastest_) pace = std::min(pace, 1.0);
+  const bool found = SearchAll(last);
+  fastest_.swap(fastest);
+  if (!found || TimeTable(law_).duration() > TimeTable(law).duration()) law_ = law;
+  CountAllPoints(last);
+  return true;
+}
+
+// Searches from the usual knots and, if jerk bounds the motion, from the coarsest ones, too: where
+// ramps of acceleration take longer than the knots are apart, moves of few coefficients soon ask
+// for too much jerk.
+bool TimeLawSearch::SearchAll(int last) {
   if (!SearchFrom(kFirstLevel, last)) return false;
   const double seconds = TimeTable(law_).duration();
   if (seconds <= kBoundedByJerk * least_seconds_) return true;
-  // Where ramps of acceleration take longer than the knots are apart, moves of few coefficients
-  // soon ask for too much jerk.
   const TimeLaw law = law_;
   if (!SearchFrom(0, last) || TimeTable(law_).duration() > seconds) {
     law_ = law;

@@ -53,6 +53,7 @@ class TimeLawSearch {
   std::size_t intervals() const;
   Eigen::Index EndOf(std::size_t interval) const;
   TimeLaw::Slowness SlownessAt(std::size_t interval, Eigen::Index point) const;
+  bool SearchAll(int last);
   bool SearchFrom(int first, int last);
   void SetLevel(int level, int last);
   void CountAllPoints(int last);
