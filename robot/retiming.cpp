@@ -149,6 +149,7 @@ class Retiming {
            const std::vector<bool>& sliding, const Arm* arm, const RetimingOptions& options)
       : path_(path), limits_(limits), sliding_(sliding), arm_(arm), options_(options) {
     for (const double time : path.times) parameters_.push_back(time - path.times.front());
+    weights_.resize(path.joints.size());
     if (arm_ == nullptr) return;
     FindArm();
     tools_.resize(3, path.positions.rows());
@@ -163,9 +164,9 @@ class Retiming {
   void FindArm();
   Eigen::VectorXd ArmConfiguration(const Eigen::RowVectorXd& row) const;
   double Allowed(Eigen::Index joint) const;
-  Eigen::MatrixXd Controls(const Eigen::VectorXd& shares, int fineness, Eigen::Index* failed) const;
-  QuinticSpline Fit(const Eigen::VectorXd& shares) const;
-  QuinticSpline FitPath(Retimed* result) const;
+  Eigen::MatrixXd Controls(const Eigen::VectorXd& shares, int fineness, Eigen::Index* failed);
+  QuinticSpline Fit(const Eigen::VectorXd& shares);
+  QuinticSpline FitPath(Retimed* result);
   void Measure(const QuinticSpline& curve, Retimed* result) const;
   PathDerivatives Derivatives(const QuinticSpline& curve, const RestToRest& ends) const;
   std::vector<double> Paces(const PathDerivatives& grid, const RestToRest& ends) const;
@@ -184,6 +185,7 @@ class Retiming {
   const RetimingOptions& options_;
   std::vector<double> parameters_;          // (K) s since the first position
   std::vector<Eigen::Index> arm_channels_;  // the arm's joints in the path
+  std::vector<Eigen::VectorXd> weights_;    // (J) of the samples in the last fit
   Eigen::Matrix3Xd tools_;                  // (3 x K) recorded tool positions, m; empty without arm
 };
 
@@ -212,14 +214,17 @@ double Retiming::Allowed(Eigen::Index joint) const {
 // position, within its share (J) of the allowed deviation. Empty, with the joint in `failed`, if
 // there is none.
 Eigen::MatrixXd Retiming::Controls(const Eigen::VectorXd& shares, int fineness,
-                                   Eigen::Index* failed) const {
+                                   Eigen::Index* failed) {
   const double spacing = parameters_.back() / static_cast<double>(parameters_.size() - 1);
   Eigen::MatrixXd controls;
   for (Eigen::Index j = 0; j < path_.positions.cols(); ++j) {
     const JointLimits& limits = limits_[static_cast<std::size_t>(j)];
     const Tube tube{shares[j] * Allowed(j), limits.lower, limits.upper};
+    // Weights of other knots would fit no better than none.
+    Eigen::VectorXd none;
+    Eigen::VectorXd* weights = fineness == 1 ? &weights_[static_cast<std::size_t>(j)] : &none;
     const Eigen::VectorXd fitted =
-        FitWithinTube(parameters_, path_.positions.col(j), spacing / fineness, tube);
+        FitWithinTube(parameters_, path_.positions.col(j), spacing / fineness, tube, weights);
     *failed = j;
     if (fitted.size() == 0) return {};
     if (j == 0) controls.resize(fitted.size(), path_.positions.cols());
@@ -228,7 +233,7 @@ Eigen::MatrixXd Retiming::Controls(const Eigen::VectorXd& shares, int fineness,
   return controls;
 }
 
-QuinticSpline Retiming::Fit(const Eigen::VectorXd& shares) const {
+QuinticSpline Retiming::Fit(const Eigen::VectorXd& shares) {
   Eigen::Index failed = 0;
   for (int fineness = 1; fineness <= kFinest; fineness *= 2) {
     Eigen::MatrixXd controls = Controls(shares, fineness, &failed);
@@ -256,7 +261,7 @@ void Retiming::Measure(const QuinticSpline& curve, Retimed* result) const {
 
 // Tightens the deviation of every joint that moves the tool until the tool keeps its own deviation
 // too.
-QuinticSpline Retiming::FitPath(Retimed* result) const {
+QuinticSpline Retiming::FitPath(Retimed* result) {
   Eigen::VectorXd shares = Eigen::VectorXd::Ones(path_.positions.cols());
   for (int i = 0; i < kRefinements; ++i) {
     const QuinticSpline curve = Fit(shares);

@@ -52,6 +52,8 @@ class TubeFit {
     }
   }
 
+  void SetWeights(const Eigen::VectorXd& weights) { weights_ = weights; }
+  const Eigen::VectorXd& weights() const { return weights_; }
   Eigen::VectorXd Run();
 
  private:
@@ -192,8 +194,12 @@ Eigen::VectorXd TubeFit::Run() {
 }  // namespace
 
 Eigen::VectorXd FitWithinTube(const std::vector<double>& times, const Eigen::VectorXd& values,
-                              double spacing, const Tube& tube) {
-  return TubeFit(times, values, spacing, tube).Run();
+                              double spacing, const Tube& tube, Eigen::VectorXd* weights) {
+  TubeFit fit(times, values, spacing, tube);
+  if (weights->size() == values.size()) fit.SetWeights(*weights);
+  Eigen::VectorXd controls = fit.Run();
+  if (controls.size() > 0) *weights = fit.weights();
+  return controls;
 }
 
 }  // namespace simwright::robot
