@@ -13,6 +13,7 @@ constexpr double kCoarsestSpacing = 0.24;  // s between the coarsest knots of th
 constexpr int kFirstLevel = 3;             // where the search starts, unless jerk bounds the motion
 // A law that takes longer than this times the optimum without jerk is bounded by jerk.
 constexpr double kBoundedByJerk = 1.1;
+constexpr double kAnyDuration = 1e12;
 constexpr int kRaisingRounds = 400;
 constexpr double kLargestRaise = 1.5;  // in one iteration
 constexpr double kTinyRaise = 1e-9;    // beyond rounding
@@ -72,7 +73,7 @@ TimeLawSearch::TimeLawSearch(const PathDerivatives& path, double length,
 bool TimeLawSearch::Find(double share, int coarser) {
   share_ = share;
   const int last = std::max(kFirstLevel, kTimeLawLevels - 1 - coarser);
-  if (!SearchAll(last)) return false;
+  if (!SearchAll(last, kAnyDuration)) return false;
   const double recorded = law_.length();
   const bool faster = *std::max_element(fastest_.begin(), fastest_.end()) > 1.0;
   if (!faster || TimeTable(law_).duration() <= recorded) return true;
@@ -81,7 +82,7 @@ bool TimeLawSearch::Find(double share, int coarser) {
   const TimeLaw law = law_;
   std::vector<double> fastest = fastest_;
   for (double& pace : fastest_) pace = std::min(pace, 1.0);
-  const bool found = SearchAll(last);
+  const bool found = SearchAll(last, first_seconds_);
   fastest_.swap(fastest);
   if (!found || TimeTable(law_).duration() > TimeTable(law).duration()) law_ = law;
   CountAllPoints(last);
@@ -91,19 +92,20 @@ bool TimeLawSearch::Find(double share, int coarser) {
 // Searches from the usual knots and, if jerk bounds the motion, from the coarsest ones, too: where
 // ramps of acceleration take longer than the knots are apart, moves of few coefficients soon ask
 // for too much jerk.
-bool TimeLawSearch::SearchAll(int last) {
-  if (!SearchFrom(kFirstLevel, last)) return false;
+bool TimeLawSearch::SearchAll(int last, double longest) {
+  if (!SearchFrom(kFirstLevel, last, longest)) return false;
   const double seconds = TimeTable(law_).duration();
   if (seconds <= kBoundedByJerk * least_seconds_) return true;
   const TimeLaw law = law_;
-  if (!SearchFrom(0, last) || TimeTable(law_).duration() > seconds) {
+  if (!SearchFrom(0, last, kAnyDuration) || TimeTable(law_).duration() > seconds) {
     law_ = law;
     CountAllPoints(last);
   }
   return true;
 }
 
-bool TimeLawSearch::SearchFrom(int first, int last) {
+// Returns false, too, if the law of the first level takes longer than `longest`.
+bool TimeLawSearch::SearchFrom(int first, int last, double longest) {
   law_ = TimeLaw(law_.length(), kCoarsestSpacing);
   for (int level = 0; level < first; ++level) law_.Refine();
   shares_.assign(fastest_.size(), share_);
@@ -113,7 +115,11 @@ bool TimeLawSearch::SearchFrom(int first, int last) {
     FindLeast();
     if (level == first) Begin();
     if (!MeetLimits()) return false;
-    Lower(-1);
+    // Large moves were tried on the coarser knots.
+    Lower(-1, level > first ? 2 : 0);
+    if (level > first) continue;
+    first_seconds_ = TimeTable(law_).duration();
+    if (first_seconds_ > longest) return false;
   }
   CountAllPoints(last);
   return Repair();
@@ -144,7 +150,7 @@ bool TimeLawSearch::Tighten(const std::vector<LimitPeak>& peaks) {
 bool TimeLawSearch::Repair() {
   const long before = change_;
   if (!MeetLimits()) return false;
-  if (change_ > before) Lower(before);
+  if (change_ > before) Lower(before, 2);
   return true;
 }
 
@@ -344,19 +350,19 @@ long TimeLawSearch::LastChange(Stretch stretch) const {
 
 // Lowers stretches around which a coefficient has changed after the change `since`: twice, the
 // second time where one has changed since the first.
-void TimeLawSearch::Lower(long since) {
+void TimeLawSearch::Lower(long since, std::size_t first_factor) {
   const std::size_t size = law_.coefficients().size();
   std::vector<long> tried(kLowered.size() * kCounts.size() * size, since);
   for (int pass = 0; pass < 2; ++pass) {
     auto last_try = tried.begin();
-    for (const double factor : kLowered) {
+    for (std::size_t f = first_factor; f < kLowered.size(); ++f) {
       for (const std::size_t count : kCounts) {
         const Stretch whole{0, std::min(count, size)};
         const std::size_t hop = std::max<std::size_t>(1, count / 2);
         for (std::size_t first = 0; first + whole.count <= size; first += hop, ++last_try) {
           const Stretch stretch{first, whole.count};
           if (LastChange(stretch) <= *last_try) continue;
-          for (int i = 0; i < kTriesAStretch && TryLower(stretch, factor); ++i) continue;
+          for (int i = 0; i < kTriesAStretch && TryLower(stretch, kLowered[f]); ++i) continue;
           *last_try = change_;
         }
       }

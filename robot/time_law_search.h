@@ -53,8 +53,8 @@ class TimeLawSearch {
   std::size_t intervals() const;
   Eigen::Index EndOf(std::size_t interval) const;
   TimeLaw::Slowness SlownessAt(std::size_t interval, Eigen::Index point) const;
-  bool SearchAll(int last);
-  bool SearchFrom(int first, int last);
+  bool SearchAll(int last, double longest);
+  bool SearchFrom(int first, int last, double longest);
   void SetLevel(int level, int last);
   void CountAllPoints(int last);
   void FindLeast();
@@ -62,7 +62,7 @@ class TimeLawSearch {
   bool MeetLimits();
   bool Raise();
   double FindRaises(const std::vector<char>& changed, std::vector<double>* factors) const;
-  void Lower(long since);
+  void Lower(long since, std::size_t first_factor);
   bool Repair();
   bool TryLower(Stretch stretch, double factor);
   bool HoldsOn(std::size_t first, std::size_t last);
@@ -75,6 +75,7 @@ class TimeLawSearch {
   std::vector<double> shares_;   // (points) of the limits
   double share_ = 1.0;
   double least_seconds_ = 0.0;  // without jerk
+  double first_seconds_ = 0.0;  // of the law on the first level of the last search
   TimeLaw law_;
   std::vector<double> least_;           // lower bound of each coefficient
   Eigen::Index per_interval_ = 1;       // points
