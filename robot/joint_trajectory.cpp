@@ -8,6 +8,15 @@
 #include "core/error.h"
 
 namespace simwright::robot {
+namespace {
+
+std::string Shown(double time) {
+  std::ostringstream text;
+  text << time;
+  return text.str();
+}
+
+}  // namespace
 
 void RequireWellFormed(const JointTrajectory& trajectory, const std::string& where) {
   const auto count = static_cast<Eigen::Index>(trajectory.joints.size());
@@ -36,19 +45,21 @@ void RequireWellFormed(const JointTrajectory& trajectory, const std::string& whe
   for (Eigen::Index i = 0; i < trajectory.size(); ++i) {
     const double time = trajectory.times[static_cast<std::size_t>(i)];
     const double before = i == 0 ? -1e-300 : trajectory.times[static_cast<std::size_t>(i - 1)];
-    std::ostringstream shown;
-    shown << time;
     if (!std::isfinite(time) || time < 0.0 || !(time > before)) {
-      throw core::Error("the time of sample " + std::to_string(i) + ", " + shown.str() +
+      throw core::Error("the time of sample " + std::to_string(i) + ", " + Shown(time) +
                             " s, does not exceed the previous one",
                         where, "give finite, increasing times");
     }
-    for (const auto& [name, matrix] : matrices) {
+  }
+  for (const auto& [name, matrix] : matrices) {
+    if (matrix->allFinite()) continue;
+    for (Eigen::Index i = 0; i < matrix->rows(); ++i) {
+      const double time = trajectory.times[static_cast<std::size_t>(i)];
       for (Eigen::Index j = 0; j < matrix->cols(); ++j) {
-        if (matrix->size() == 0 || std::isfinite((*matrix)(i, j))) continue;
+        if (std::isfinite((*matrix)(i, j))) continue;
         throw core::Error(std::string("one of the ") + name + " is not finite",
                           where + " joint '" + trajectory.joints[static_cast<std::size_t>(j)] +
-                              "' at " + shown.str() + " s");
+                              "' at " + Shown(time) + " s");
       }
     }
   }

@@ -54,26 +54,32 @@ class JointCheck {
             DisplayText(worst.limit),
         worst.value);
   }
-  static void Consider(double value, double time, double limit, WorstValue* worst) {
-    const double ratio = std::abs(value) / limit;
-    if (ratio <= worst->ratio && worst->limit > 0.0) return;
-    *worst = {value, limit, ratio, time};
+  // Considers `values`, each at the mean of the times of the samples i and i + `span`.
+  void Consider(const Eigen::VectorXd& values, Eigen::Index span, double limit,
+                WorstValue* worst) const {
+    Eigen::Index largest = 0;
+    double size = -1.0;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      if (std::abs(values[i]) <= size) continue;
+      size = std::abs(values[i]);
+      largest = i;
+    }
+    if (values.size() == 0 || (size / limit <= worst->ratio && worst->limit > 0.0)) return;
+    *worst = {values[largest], limit, size / limit, 0.5 * (Time(largest) + Time(largest + span))};
   }
   void Consider(const Eigen::VectorXd& values, double limit, WorstValue* worst) const {
-    for (Eigen::Index i = 0; i < values.size(); ++i) Consider(values[i], Time(i), limit, worst);
+    Consider(values, 0, limit, worst);
   }
-  // Checks divided differences of `values` times order!: means of the derivative of that order over
-  // `order` intervals.
-  void ConsiderDifferences(Eigen::VectorXd values, int order, double limit,
-                           WorstValue* worst) const {
-    for (int k = 1; k <= order; ++k) {
-      for (Eigen::Index i = 0; i + k < positions_.size(); ++i) {
-        values[i] = k * (values[i + 1] - values[i]) / (Time(i + k) - Time(i));
-      }
+  // Returns divided differences times order!, means of the derivative of that order over `order`
+  // intervals, from those of the order below.
+  Eigen::VectorXd Differences(const Eigen::VectorXd& values, Eigen::Index order) const {
+    if (values.size() < 2) return {};
+    Eigen::VectorXd differences(values.size() - 1);
+    for (Eigen::Index i = 0; i < differences.size(); ++i) {
+      differences[i] =
+          static_cast<double>(order) * (values[i + 1] - values[i]) / (Time(i + order) - Time(i));
     }
-    for (Eigen::Index i = 0; i + order < positions_.size(); ++i) {
-      Consider(values[i], 0.5 * (Time(i) + Time(i + order)), limit, worst);
-    }
+    return differences;
   }
 
   void CheckPositions();
@@ -103,15 +109,18 @@ void JointCheck::CheckPositions() {
 }
 
 void JointCheck::CheckRates() {
+  const Eigen::VectorXd from_positions = Differences(positions_, 1);
+  const Eigen::VectorXd from_velocities = Differences(velocities_, 1);
   Consider(velocities_, limits_.velocity, &result_.velocity);
-  ConsiderDifferences(positions_, 1, limits_.velocity, &result_.velocity);
+  Consider(from_positions, 1, limits_.velocity, &result_.velocity);
+  const Eigen::VectorXd second = Differences(from_positions, 2);
   Consider(accelerations_, limits_.acceleration, &result_.acceleration);
-  ConsiderDifferences(velocities_, 1, limits_.acceleration, &result_.acceleration);
-  ConsiderDifferences(positions_, 2, limits_.acceleration, &result_.acceleration);
+  Consider(from_velocities, 1, limits_.acceleration, &result_.acceleration);
+  Consider(second, 2, limits_.acceleration, &result_.acceleration);
   result_.jerk.limit = limits_.jerk;
-  ConsiderDifferences(accelerations_, 1, limits_.jerk, &result_.jerk);
-  ConsiderDifferences(velocities_, 2, limits_.jerk, &result_.jerk);
-  ConsiderDifferences(positions_, 3, limits_.jerk, &result_.jerk);
+  Consider(Differences(accelerations_, 1), 1, limits_.jerk, &result_.jerk);
+  Consider(Differences(from_velocities, 2), 2, limits_.jerk, &result_.jerk);
+  Consider(Differences(second, 3), 3, limits_.jerk, &result_.jerk);
   Report("limit-velocity", "velocity", result_.velocity);
   Report("limit-acceleration", "acceleration", result_.acceleration);
   Report("limit-jerk", "jerk", result_.jerk);
@@ -134,15 +143,15 @@ void JointCheck::CheckAgreement() {
     const double velocity_error =
         std::abs(velocity_change - 0.5 * h * (accelerations_[i] + accelerations_[i + 1]));
     const double rounding = 1e-12 * (1.0 + std::abs(positions_[i]));
-    const double position_ratio = position_error / (0.033 * limits_.jerk * h * h * h + rounding);
-    const double velocity_ratio =
-        velocity_error / (limits_.jerk * h * h / 4.0 + rounding + 1e-12 * std::abs(velocities_[i]));
-    if (position_ratio > worst_velocity) {
-      worst_velocity = position_ratio;
+    const double position_bound = 0.033 * limits_.jerk * h * h * h + rounding;
+    const double velocity_bound =
+        limits_.jerk * h * h / 4.0 + rounding + 1e-12 * std::abs(velocities_[i]);
+    if (position_error > worst_velocity * position_bound) {
+      worst_velocity = position_error / position_bound;
       velocity_at = i;
     }
-    if (velocity_ratio > worst_acceleration) {
-      worst_acceleration = velocity_ratio;
+    if (velocity_error > worst_acceleration * velocity_bound) {
+      worst_acceleration = velocity_error / velocity_bound;
       acceleration_at = i;
     }
   }

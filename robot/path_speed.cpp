@@ -7,11 +7,9 @@ namespace simwright::robot {
 namespace {
 
 constexpr double kLeastFirst = 1e-9;  // smaller joint derivatives count as zero
-constexpr int kBisections = 40;
-
-struct Range {
-  double lower, upper;
-};
+constexpr double kAnyAcceleration = 1e12;
+constexpr int kNarrowings = 40;
+constexpr double kLeastWidth = 1e-9;  // of accelerations, 1/s^2
 
 // With x = (dw/dt)^2 and u = d2w/dt2, the acceleration of a joint is first * u + second * x, and x
 // grows by 2 step u from one point to the next.
@@ -26,7 +24,7 @@ class Reachability {
     std::vector<double> most(static_cast<std::size_t>(points));
     for (Eigen::Index i = points - 1; i >= 0; --i) {
       const auto at = static_cast<std::size_t>(i);
-      most[at] = i + 1 == points ? ByVelocity(i) : LargestBefore(i, most[at + 1]);
+      most[at] = i + 1 == points ? LargestAlone(i) : LargestBefore(i, most[at + 1]);
     }
     for (Eigen::Index i = 0; i + 1 < points; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -38,49 +36,72 @@ class Reachability {
   }
 
  private:
-  // Returns the largest x within the velocity limits.
-  double ByVelocity(Eigen::Index point) const {
-    double most = std::pow(most_[static_cast<std::size_t>(point)], 2);
+  // Returns the largest x within the velocity limits, and within the acceleration limits of joints
+  // that turn here.
+  double LargestAlone(Eigen::Index point) const {
+    double speed = most_[static_cast<std::size_t>(point)];
+    double most = speed * speed;
     for (Eigen::Index j = 0; j < path_.first.rows(); ++j) {
+      const JointLimits& limit = limits_[static_cast<std::size_t>(j)];
       const double first = std::abs(path_.first(j, point));
-      if (first < kLeastFirst) continue;
-      most = std::min(most, std::pow(limits_[static_cast<std::size_t>(j)].velocity / first, 2));
+      if (first < kLeastFirst) {
+        most = std::min(
+            most, limit.acceleration / std::max(std::abs(path_.second(j, point)), kLeastFirst));
+        continue;
+      }
+      speed = limit.velocity / first;
+      most = std::min(most, speed * speed);
     }
     return most;
   }
 
+  // The smallest and the largest u within the acceleration limits, and their growth with x.
+  struct Bounds {
+    double lower = -kAnyAcceleration, upper = kAnyAcceleration;
+    double lower_slope = 0.0, upper_slope = 0.0;
+  };
+
   // Returns the range of u within the acceleration limits at x; empty if lower > upper.
-  Range Accelerations(Eigen::Index point, double x) const {
-    Range range{-1e12, 1e12};
+  Bounds Accelerations(Eigen::Index point, double x) const {
+    Bounds bounds;
     for (Eigen::Index j = 0; j < path_.first.rows(); ++j) {
-      const double limit = limits_[static_cast<std::size_t>(j)].acceleration;
-      const double first = path_.first(j, point), curvature = path_.second(j, point) * x;
-      if (std::abs(first) < kLeastFirst) {
-        if (std::abs(curvature) > limit) return {1.0, -1.0};
-        continue;
+      const double first = path_.first(j, point);
+      if (std::abs(first) < kLeastFirst) continue;  // LargestAlone has seen to it
+      const double slope = -path_.second(j, point) / first;
+      const double slack = limits_[static_cast<std::size_t>(j)].acceleration / std::abs(first);
+      if (slope * x - slack > bounds.lower) {
+        bounds.lower = slope * x - slack;
+        bounds.lower_slope = slope;
       }
-      const double middle = -curvature / first, slack = limit / std::abs(first);
-      range.lower = std::max(range.lower, middle - slack);
-      range.upper = std::min(range.upper, middle + slack);
+      if (slope * x + slack < bounds.upper) {
+        bounds.upper = slope * x + slack;
+        bounds.upper_slope = slope;
+      }
     }
-    return range;
+    return bounds;
   }
 
-  // Returns the largest x from which a value in [0, next] of the next point is reachable. The
-  // feasible x form an interval from 0.
+  // Returns the largest x from which a value in [0, next] of the next point is reachable. The range
+  // of u narrows with x from a positive width at 0, piecewise linearly and concavely: Newton's
+  // method reaches its end from above in a few steps.
   double LargestBefore(Eigen::Index point, double next) const {
-    const auto reaches = [&](double x) {
-      const Range range = Accelerations(point, x);
-      const double lower = std::max(range.lower, -x / (2.0 * path_.step));
-      return lower <= std::min(range.upper, (next - x) / (2.0 * path_.step));
-    };
-    double low = 0.0, high = ByVelocity(point);
-    if (reaches(high)) return high;
-    for (int i = 0; i < kBisections; ++i) {
-      const double middle = 0.5 * (low + high);
-      (reaches(middle) ? low : high) = middle;
+    const double per_step = 1.0 / (2.0 * path_.step);
+    double x = LargestAlone(point);
+    for (int i = 0; i < kNarrowings; ++i) {
+      Bounds bounds = Accelerations(point, x);
+      if (-x * per_step > bounds.lower) {
+        bounds.lower = -x * per_step;
+        bounds.lower_slope = -per_step;
+      }
+      if ((next - x) * per_step < bounds.upper) {
+        bounds.upper = (next - x) * per_step;
+        bounds.upper_slope = -per_step;
+      }
+      const double width = bounds.upper - bounds.lower;
+      if (width >= -kLeastWidth) break;
+      x = std::max(0.0, x - width / (bounds.upper_slope - bounds.lower_slope));
     }
-    return low;
+    return x;
   }
 
   const PathDerivatives& path_;

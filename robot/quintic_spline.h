@@ -12,6 +12,7 @@ namespace simwright::robot {
 class QuinticSpline {
  public:
   static constexpr int kSupport = 6;  // control points that shape one interval
+  using Jet = Eigen::Matrix<double, 4, Eigen::Dynamic>;
 
   // The interval of u, and the weights of the control points first ... first + 5 there, for the
   // `derivative`-th derivative, 0 to 3.
@@ -30,6 +31,8 @@ class QuinticSpline {
   Eigen::Index joints() const { return controls_.cols(); }
   // Returns the value or a derivative (J) at `u`, clamped to the ends of the curve.
   Eigen::RowVectorXd Value(double u, int derivative = 0) const;
+  // Returns the value and the first three derivatives (4 x J), as Value does.
+  Jet Values(double u) const;
 
  private:
   double spacing_;

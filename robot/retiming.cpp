@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "core/error.h"
@@ -10,6 +9,7 @@
 #include "robot/number_text.h"
 #include "robot/quintic_spline.h"
 #include "robot/time_law.h"
+#include "robot/time_law_search.h"
 #include "robot/tube_fit.h"
 
 namespace simwright::robot {
@@ -21,6 +21,7 @@ constexpr double kMostUneven = 3.0;   // largest time step over the mean
 constexpr double kShare = 0.998;      // used share of the limits: peaks lie between grid points
 constexpr double kLessShare = 0.995;  // factor on the share for each retry
 constexpr int kRefinements = 12;
+constexpr int kTightenings = 8;
 constexpr int kTriesALevel = 3;
 constexpr double kLeastShare = 0.02;  // smallest share of a joint's deviation that the tool leaves
                                       // it
@@ -148,7 +149,14 @@ class Retiming {
            const std::vector<bool>& sliding, const Arm* arm, const RetimingOptions& options)
       : path_(path), limits_(limits), sliding_(sliding), arm_(arm), options_(options) {
     for (const double time : path.times) parameters_.push_back(time - path.times.front());
-    if (arm_ != nullptr) FindArm();
+    weights_.resize(path.joints.size());
+    if (arm_ == nullptr) return;
+    FindArm();
+    tools_.resize(3, path.positions.rows());
+    for (Eigen::Index k = 0; k < tools_.cols(); ++k) {
+      tools_.col(k) =
+          ForwardKinematics(*arm_, ArmConfiguration(path.positions.row(k))).translation();
+    }
   }
   Retimed Run();
 
@@ -156,13 +164,18 @@ class Retiming {
   void FindArm();
   Eigen::VectorXd ArmConfiguration(const Eigen::RowVectorXd& row) const;
   double Allowed(Eigen::Index joint) const;
-  Eigen::MatrixXd Controls(const Eigen::VectorXd& shares, int fineness, Eigen::Index* failed) const;
-  QuinticSpline Fit(const Eigen::VectorXd& shares) const;
-  QuinticSpline FitPath(Retimed* result) const;
+  Eigen::MatrixXd Controls(const Eigen::VectorXd& shares, int fineness, Eigen::Index* failed);
+  QuinticSpline Fit(const Eigen::VectorXd& shares);
+  QuinticSpline FitPath(Retimed* result);
   void Measure(const QuinticSpline& curve, Retimed* result) const;
   PathDerivatives Derivatives(const QuinticSpline& curve, const RestToRest& ends) const;
-  std::function<double(double)> Paces(const RestToRest& ends) const;
-  JointTrajectory Sample(const QuinticSpline& curve, const RestToRest& ends, TimeLaw* law) const;
+  std::vector<double> Paces(const PathDerivatives& grid, const RestToRest& ends) const;
+  JointTrajectory Sample(const QuinticSpline& curve, const RestToRest& ends, TimeLaw* law,
+                         std::vector<double>* parameters) const;
+  std::vector<LimitPeak> Peaks(const JointTrajectory& trajectory,
+                               const std::vector<double>& parameters) const;
+  bool Finish(const QuinticSpline& curve, const RestToRest& ends, TimeLawSearch* search,
+              Retimed* result) const;
   [[noreturn]] void FailLimits(const PathDerivatives& derivatives, const RestToRest& ends) const;
 
   const RecordedPath& path_;
@@ -172,6 +185,8 @@ class Retiming {
   const RetimingOptions& options_;
   std::vector<double> parameters_;          // (K) s since the first position
   std::vector<Eigen::Index> arm_channels_;  // the arm's joints in the path
+  std::vector<Eigen::VectorXd> weights_;    // (J) of the samples in the last fit
+  Eigen::Matrix3Xd tools_;                  // (3 x K) recorded tool positions, m; empty without arm
 };
 
 void Retiming::FindArm() {
@@ -199,14 +214,17 @@ double Retiming::Allowed(Eigen::Index joint) const {
 // position, within its share (J) of the allowed deviation. Empty, with the joint in `failed`, if
 // there is none.
 Eigen::MatrixXd Retiming::Controls(const Eigen::VectorXd& shares, int fineness,
-                                   Eigen::Index* failed) const {
+                                   Eigen::Index* failed) {
   const double spacing = parameters_.back() / static_cast<double>(parameters_.size() - 1);
   Eigen::MatrixXd controls;
   for (Eigen::Index j = 0; j < path_.positions.cols(); ++j) {
     const JointLimits& limits = limits_[static_cast<std::size_t>(j)];
     const Tube tube{shares[j] * Allowed(j), limits.lower, limits.upper};
+    // Weights of other knots would fit no better than none.
+    Eigen::VectorXd none;
+    Eigen::VectorXd* weights = fineness == 1 ? &weights_[static_cast<std::size_t>(j)] : &none;
     const Eigen::VectorXd fitted =
-        FitWithinTube(parameters_, path_.positions.col(j), spacing / fineness, tube);
+        FitWithinTube(parameters_, path_.positions.col(j), spacing / fineness, tube, weights);
     *failed = j;
     if (fitted.size() == 0) return {};
     if (j == 0) controls.resize(fitted.size(), path_.positions.cols());
@@ -215,7 +233,7 @@ Eigen::MatrixXd Retiming::Controls(const Eigen::VectorXd& shares, int fineness,
   return controls;
 }
 
-QuinticSpline Retiming::Fit(const Eigen::VectorXd& shares) const {
+QuinticSpline Retiming::Fit(const Eigen::VectorXd& shares) {
   Eigen::Index failed = 0;
   for (int fineness = 1; fineness <= kFinest; fineness *= 2) {
     Eigen::MatrixXd controls = Controls(shares, fineness, &failed);
@@ -236,16 +254,14 @@ void Retiming::Measure(const QuinticSpline& curve, Retimed* result) const {
     const Eigen::RowVectorXd recorded = path_.positions.row(k);
     result->deviations = result->deviations.cwiseMax((value - recorded).cwiseAbs().transpose());
     if (arm_ == nullptr) continue;
-    const Eigen::Vector3d offset =
-        ForwardKinematics(*arm_, ArmConfiguration(value)).translation() -
-        ForwardKinematics(*arm_, ArmConfiguration(recorded)).translation();
-    result->tool_deviation = std::max(result->tool_deviation, offset.norm());
+    const Eigen::Vector3d tool = ForwardKinematics(*arm_, ArmConfiguration(value)).translation();
+    result->tool_deviation = std::max(result->tool_deviation, (tool - tools_.col(k)).norm());
   }
 }
 
 // Tightens the deviation of every joint that moves the tool until the tool keeps its own deviation
 // too.
-QuinticSpline Retiming::FitPath(Retimed* result) const {
+QuinticSpline Retiming::FitPath(Retimed* result) {
   Eigen::VectorXd shares = Eigen::VectorXd::Ones(path_.positions.cols());
   for (int i = 0; i < kRefinements; ++i) {
     const QuinticSpline curve = Fit(shares);
@@ -271,33 +287,34 @@ PathDerivatives Retiming::Derivatives(const QuinticSpline& curve, const RestToRe
   }
   for (Eigen::Index i = 0; i < points; ++i) {
     const Eigen::Vector4d u = ends.At(path.step * static_cast<double>(i));
-    const Eigen::RowVectorXd d1 = curve.Value(u[0], 1), d2 = curve.Value(u[0], 2),
-                             d3 = curve.Value(u[0], 3);
-    path.first.col(i) = d1.transpose() * u[1];
-    path.second.col(i) = (d2 * u[1] * u[1] + d1 * u[2]).transpose();
-    path.third.col(i) = (d3 * u[1] * u[1] * u[1] + 3.0 * d2 * u[1] * u[2] + d1 * u[3]).transpose();
+    const QuinticSpline::Jet jet = curve.Values(u[0]);
+    const auto d1 = jet.row(1).transpose(), d2 = jet.row(2).transpose(),
+               d3 = jet.row(3).transpose();
+    path.first.col(i) = d1 * u[1];
+    path.second.col(i) = d2 * u[1] * u[1] + d1 * u[2];
+    path.third.col(i) = d3 * u[1] * u[1] * u[1] + 3.0 * d2 * u[1] * u[2] + d1 * u[3];
   }
   return path;
 }
 
-// Returns the largest speed-up over the recording as a function of w.
-std::function<double(double)> Retiming::Paces(const RestToRest& ends) const {
-  return [this, &ends](double w) {
-    if (path_.speed_ups.empty()) return options_.max_speed_up;
-    const double u = ends.At(w)[0];
-    const auto after = std::upper_bound(parameters_.begin(), parameters_.end(), u);
-    const auto next = std::min<std::ptrdiff_t>(after - parameters_.begin(),
-                                               static_cast<std::ptrdiff_t>(parameters_.size()) - 1);
-    const auto last = std::max<std::ptrdiff_t>(next - 1, 0);
-    return std::min({options_.max_speed_up, path_.speed_ups[static_cast<std::size_t>(last)],
-                     path_.speed_ups[static_cast<std::size_t>(next)]});
-  };
+// Returns the largest speed-up over the recording at each point of the grid.
+std::vector<double> Retiming::Paces(const PathDerivatives& grid, const RestToRest& ends) const {
+  std::vector<double> paces(static_cast<std::size_t>(grid.first.cols()), options_.max_speed_up);
+  if (path_.speed_ups.empty()) return paces;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < paces.size(); ++i) {
+    const double u = ends.At(grid.step * static_cast<double>(i))[0];
+    while (next + 1 < parameters_.size() && parameters_[next] <= u) ++next;
+    const std::size_t last = next > 0 ? next - 1 : 0;
+    paces[i] = std::min({paces[i], path_.speed_ups[last], path_.speed_ups[next]});
+  }
+  return paces;
 }
 
-// Samples the trajectory at the requested rate; the law is slowed by less than a sample so that the
-// last sample falls on the end.
-JointTrajectory Retiming::Sample(const QuinticSpline& curve, const RestToRest& ends,
-                                 TimeLaw* law) const {
+// Samples the trajectory at the requested rate, with the path parameter of each sample; the law is
+// slowed by less than a sample so that the last sample falls on the end.
+JointTrajectory Retiming::Sample(const QuinticSpline& curve, const RestToRest& ends, TimeLaw* law,
+                                 std::vector<double>* parameters) const {
   const double exact = TimeTable(*law).duration() * options_.rate;
   const auto steps = static_cast<Eigen::Index>(std::ceil(exact - 1e-9));
   for (double& c : law->coefficients()) c *= static_cast<double>(steps) / exact;
@@ -308,20 +325,46 @@ JointTrajectory Retiming::Sample(const QuinticSpline& curve, const RestToRest& e
        {&trajectory.positions, &trajectory.velocities, &trajectory.accelerations}) {
     matrix->resize(steps + 1, curve.joints());
   }
+  parameters->clear();
+  const double h = 1.0 / options_.rate;
+  double w = 0.0, guess = 0.0;
   for (Eigen::Index i = 0; i <= steps; ++i) {
     const double time = static_cast<double>(i) / options_.rate;
-    const double w = i == steps ? ends.length() : table.Parameter(time);
+    w = i == steps ? ends.length() : table.Parameter(time, guess);
     const Eigen::Vector4d u = ends.At(w);
     const Eigen::Vector3d rate = law->Rates(w);
+    guess = w + h * (rate[0] + h * (rate[1] / 2.0 + h * rate[2] / 6.0));
     const double first = u[1] * rate[0];
     const double second = u[2] * rate[0] * rate[0] + u[1] * rate[1];
-    const Eigen::RowVectorXd d1 = curve.Value(u[0], 1);
+    const QuinticSpline::Jet jet = curve.Values(u[0]);
+    parameters->push_back(w);
     trajectory.times.push_back(time);
-    trajectory.positions.row(i) = curve.Value(u[0]);
-    trajectory.velocities.row(i) = d1 * first;
-    trajectory.accelerations.row(i) = curve.Value(u[0], 2) * first * first + d1 * second;
+    trajectory.positions.row(i) = jet.row(0);
+    trajectory.velocities.row(i) = jet.row(1) * first;
+    trajectory.accelerations.row(i) = jet.row(2) * first * first + jet.row(1) * second;
   }
   return trajectory;
+}
+
+// Returns where samples of velocity, acceleration or jerk exceed their limits.
+std::vector<LimitPeak> Retiming::Peaks(const JointTrajectory& trajectory,
+                                       const std::vector<double>& parameters) const {
+  std::vector<LimitPeak> peaks;
+  for (Eigen::Index i = 1; i + 1 < trajectory.size(); ++i) {
+    double ratio = 0.0;
+    for (Eigen::Index j = 0; j < trajectory.positions.cols(); ++j) {
+      const JointLimits& limit = limits_[static_cast<std::size_t>(j)];
+      const auto& acceleration = trajectory.accelerations.col(j);
+      const double jerk = options_.rate * (acceleration[i + 1] - acceleration[i]);
+      ratio =
+          std::max({ratio, std::abs(trajectory.velocities(i, j)) / limit.velocity,
+                    std::abs(acceleration[i]) / limit.acceleration, std::abs(jerk) / limit.jerk});
+    }
+    if (ratio <= 1.0) continue;
+    const auto sample = static_cast<std::size_t>(i);
+    peaks.push_back({parameters[sample - 1], parameters[sample + 1], ratio});
+  }
+  return peaks;
 }
 
 // Throws an error that names the limit requiring the largest slow-down: velocity falls with the
@@ -352,27 +395,43 @@ void Retiming::FailLimits(const PathDerivatives& derivatives, const RestToRest& 
        "allow more deviation or a longer stretch");
 }
 
+// Samples the found law and returns true if the check accepts the motion. Otherwise tightens the
+// law where samples between the points of its grid exceed the limits, and tries again.
+bool Retiming::Finish(const QuinticSpline& curve, const RestToRest& ends, TimeLawSearch* search,
+                      Retimed* result) const {
+  for (int i = 0; i < kTightenings; ++i) {
+    TimeLaw law = search->law();
+    result->stretch = TimeTable(law).duration() / result->recorded;
+    if (result->stretch > options_.max_stretch) return false;
+    std::vector<double> parameters;
+    result->trajectory = Sample(curve, ends, &law, &parameters);
+    if (CheckLimits(result->trajectory, limits_).accepted()) {
+      const TimeTable table(law);
+      result->stretch = table.duration() / result->recorded;
+      for (const double u : parameters_) {
+        result->waypoint_times.push_back(table.Time(ends.Parameter(u)));
+      }
+      return true;
+    }
+    const std::vector<LimitPeak> peaks = Peaks(result->trajectory, parameters);
+    if (peaks.empty() || !search->Tighten(peaks)) return false;
+  }
+  return false;
+}
+
 Retimed Retiming::Run() {
   Retimed result;
   const QuinticSpline curve = FitPath(&result);
   const RestToRest ends(curve.length(), options_.ramp);
   const PathDerivatives derivatives = Derivatives(curve, ends);
   result.recorded = parameters_.back();
+  TimeLawSearch search(derivatives, ends.length(), limits_, Paces(derivatives, ends));
   double share = kShare;
   for (int i = 0; i < kRefinements; ++i, share *= kLessShare) {
     // If jerk keeps peaking between the grid points, coarser knots are used.
-    const int levels = std::max(1, kTimeLawLevels - i / kTriesALevel);
-    TimeLawFit fit = FitTimeLaw(derivatives, ends.length(), limits_, share, Paces(ends), levels);
-    result.stretch = TimeTable(fit.law).duration() / result.recorded;
-    if (!fit.found || result.stretch > options_.max_stretch) FailLimits(derivatives, ends);
-    result.trajectory = Sample(curve, ends, &fit.law);
-    if (!CheckLimits(result.trajectory, limits_).accepted()) continue;
-    const TimeTable table(fit.law);
-    result.stretch = table.duration() / result.recorded;
-    for (const double u : parameters_) {
-      result.waypoint_times.push_back(table.Time(ends.Parameter(u)));
-    }
-    return result;
+    const bool found = search.Find(share, i / kTriesALevel);
+    if (found && Finish(curve, ends, &search, &result)) return result;
+    if (!found || result.stretch > options_.max_stretch) FailLimits(derivatives, ends);
   }
   Fail(CheckLimits(result.trajectory, limits_).findings.front().sentence + " after " +
        std::to_string(kRefinements) + " refinements");

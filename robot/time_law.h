@@ -1,12 +1,9 @@
 #pragma once
 
-#include <functional>
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
-
-#include "robot/joint_limits.h"
-#include "robot/path_speed.h"
 
 namespace simwright::robot {
 
@@ -32,6 +29,12 @@ class TimeLaw {
     double value = 1.0, first = 0.0, second = 0.0;  // and its derivatives with respect to w
   };
   Slowness At(double w) const;
+  // The weights of the coefficients interval ... interval + 3 in slowness and its derivatives at
+  // fraction `x` of an interval.
+  struct Basis {
+    std::array<double, kSupport> value, first, second;
+  };
+  Basis BasisAt(double x) const;
   // Returns the first three derivatives of the parameter with respect to t, at `w`.
   Eigen::Vector3d Rates(double w) const;
 
@@ -48,30 +51,12 @@ class TimeTable {
   double duration() const { return knot_times_.back(); }  // s
   double Time(double w) const;                            // 0 at w = 0
   double Parameter(double t) const;                       // the inverse
+  // Returns the same, faster if `guess` is near.
+  double Parameter(double t, double guess) const;
 
  private:
   TimeLaw law_;
   std::vector<double> knot_times_;
 };
-
-// Returns the number of steps of FitTimeLaw's grid for a path of `length`; the knots, where jerk
-// peaks, lie on the grid.
-Eigen::Index TimeLawGrid(double length);
-
-struct TimeLawFit {
-  TimeLaw law;         // the slowest law tried if none was found
-  bool found = false;  // true if all limits hold
-};
-
-// Returns a time law that keeps velocity, acceleration and jerk on the grid within `share` of the
-// limits, runs the path at w at most fastest(w) times as fast as recorded, and is locally optimal.
-// The search starts from the fastest law that velocity and acceleration allow, raises it where a
-// limit is exceeded, then lowers it on stretches of decreasing length while all limits hold, on
-// `levels` levels of knots, each with half the spacing of the previous one. The finer the knots,
-// the more jerk may peak between the points of the grid (TimeLawGrid).
-constexpr int kTimeLawLevels = 3;
-TimeLawFit FitTimeLaw(const PathDerivatives& path, double length,
-                      const std::vector<JointLimits>& limits, double share,
-                      const std::function<double(double)>& fastest, int levels = kTimeLawLevels);
 
 }  // namespace simwright::robot

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 
 #include "robot/quintic_spline.h"
 
@@ -44,13 +43,23 @@ class TubeFit {
       bases_.push_back(QuinticSpline::At(time, spacing, intervals_, 0));
     }
     weights_[0] = weights_[weights_.size() - 1] = kEndWeight;
+    penalty_ = Eigen::MatrixXd::Zero(kBand + 1, count_);
+    constexpr double kThird[4] = {-1.0, 3.0, -3.0, 1.0};
+    for (Eigen::Index i = 0; i + 3 < count_; ++i) {
+      for (int a = 0; a < 4; ++a) {
+        for (int b = 0; b <= a; ++b) penalty_(a - b, i + b) += stiffness_ * kThird[a] * kThird[b];
+      }
+    }
   }
 
+  void SetWeights(const Eigen::VectorXd& weights) { weights_ = weights; }
+  const Eigen::VectorXd& weights() const { return weights_; }
   Eigen::VectorXd Run();
 
  private:
   void Assemble();
   void Solve();
+  void TakeOutHeld();
   bool HoldAtLimits();
   bool RaiseWeights();
 
@@ -61,59 +70,71 @@ class TubeFit {
   Eigen::VectorXd weights_;
   std::vector<int> held_;  // (count) -1 or 1: the control point is at its lower or upper limit
   std::vector<QuinticSpline::Basis> bases_;
-  Eigen::MatrixXd band_;  // (kBand + 1 x count): row k, column i is the element (i + k, i)
+  // (kBand + 1 x count): row k, column i is the element (i + k, i) of the penalty alone, of the
+  // normal equations, and of their factors.
+  Eigen::MatrixXd penalty_, band_, factors_;
   Eigen::VectorXd right_, controls_;
 };
 
 void TubeFit::Assemble() {
-  band_ = Eigen::MatrixXd::Zero(kBand + 1, count_);
+  band_ = penalty_;
   right_ = Eigen::VectorXd::Zero(count_);
-  constexpr double kThird[4] = {-1.0, 3.0, -3.0, 1.0};
-  for (Eigen::Index i = 0; i + 3 < count_; ++i) {
-    for (int a = 0; a < 4; ++a) {
-      for (int b = 0; b <= a; ++b) band_(a - b, i + b) += stiffness_ * kThird[a] * kThird[b];
-    }
-  }
   for (std::size_t s = 0; s < bases_.size(); ++s) {
     const auto& [first, basis] = bases_[s];
     const double weight = weights_[static_cast<Eigen::Index>(s)];
-    for (int a = 0; a <= kBand; ++a) {
-      const double weighted = weight * basis[static_cast<std::size_t>(a)];
-      right_[first + a] += weighted * aims_[static_cast<Eigen::Index>(s)];
-      for (int b = 0; b <= a; ++b) {
-        band_(a - b, first + b) += weighted * basis[static_cast<std::size_t>(b)];
-      }
+    const double aim = aims_[static_cast<Eigen::Index>(s)];
+    for (int b = 0; b <= kBand; ++b) {
+      const double weighted = weight * basis[static_cast<std::size_t>(b)];
+      right_[first + b] += weighted * aim;
+      double* column = band_.col(first + b).data();
+      for (int a = b; a <= kBand; ++a)
+        column[a - b] += weighted * basis[static_cast<std::size_t>(a)];
     }
   }
 }
 
-// Solves the normal equations. Held control points are known: their rows and columns leave the
-// system.
+// Solves the normal equations by L D L' within the band. Held control points are known: their rows
+// and columns leave the system.
 void TubeFit::Solve() {
+  factors_ = band_;
+  controls_ = right_;
+  if (std::any_of(held_.begin(), held_.end(), [](int held) { return held != 0; })) TakeOutHeld();
+  for (Eigen::Index i = 0; i < count_; ++i) {
+    double* column = factors_.col(i).data();
+    const Eigen::Index below = std::min<Eigen::Index>(kBand, count_ - 1 - i);
+    for (Eigen::Index k = 1; k <= below; ++k) {
+      const double factor = column[k] / column[0];
+      double* updated = factors_.col(i + k).data();
+      for (Eigen::Index m = k; m <= below; ++m) updated[m - k] -= factor * column[m];
+      controls_[i + k] -= factor * controls_[i];
+    }
+  }
+  for (Eigen::Index i = count_ - 1; i >= 0; --i) {
+    const double* column = factors_.col(i).data();
+    const Eigen::Index below = std::min<Eigen::Index>(kBand, count_ - 1 - i);
+    for (Eigen::Index k = 1; k <= below; ++k) controls_[i] -= column[k] * controls_[i + k];
+    controls_[i] /= column[0];
+  }
+}
+
+// Replaces the equations of held control points by their values.
+void TubeFit::TakeOutHeld() {
+  const auto is_held = [&](Eigen::Index i) { return held_[static_cast<std::size_t>(i)] != 0; };
   const auto limit = [&](Eigen::Index i) {
     return held_[static_cast<std::size_t>(i)] > 0 ? tube_.upper : tube_.lower;
   };
-  const auto is_held = [&](Eigen::Index i) { return held_[static_cast<std::size_t>(i)] != 0; };
-  Eigen::SparseMatrix<double> matrix(count_, count_);
-  matrix.reserve(Eigen::VectorXi::Constant(count_, kBand + 1));
-  Eigen::VectorXd right = right_;
   for (Eigen::Index i = 0; i < count_; ++i) {
-    matrix.insert(i, i) = is_held(i) ? 1.0 : band_(0, i);
     for (Eigen::Index k = 1; k <= kBand && i + k < count_; ++k) {
-      const double element = band_(k, i);
-      const bool column = is_held(i), row = is_held(i + k);
-      matrix.insert(i + k, i) = column || row ? 0.0 : element;
-      if (column) right[i + k] -= element * limit(i);
-      if (row) right[i] -= element * limit(i + k);
+      if (is_held(i)) controls_[i + k] -= factors_(k, i) * limit(i);
+      if (is_held(i + k)) controls_[i] -= factors_(k, i) * limit(i + k);
+      if (is_held(i) || is_held(i + k)) factors_(k, i) = 0.0;
     }
   }
   for (Eigen::Index i = 0; i < count_; ++i) {
-    if (is_held(i)) right[i] = limit(i);
+    if (!is_held(i)) continue;
+    factors_(0, i) = 1.0;
+    controls_[i] = limit(i);
   }
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower,
-                              Eigen::NaturalOrdering<int>>
-      factors(matrix);
-  controls_ = factors.solve(right);
 }
 
 // Holds control points that left the limits, and releases those that the fit would move inside.
@@ -173,8 +194,12 @@ Eigen::VectorXd TubeFit::Run() {
 }  // namespace
 
 Eigen::VectorXd FitWithinTube(const std::vector<double>& times, const Eigen::VectorXd& values,
-                              double spacing, const Tube& tube) {
-  return TubeFit(times, values, spacing, tube).Run();
+                              double spacing, const Tube& tube, Eigen::VectorXd* weights) {
+  TubeFit fit(times, values, spacing, tube);
+  if (weights->size() == values.size()) fit.SetWeights(*weights);
+  Eigen::VectorXd controls = fit.Run();
+  if (controls.size() > 0) *weights = fit.weights();
+  return controls;
 }
 
 }  // namespace simwright::robot

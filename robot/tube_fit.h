@@ -19,8 +19,9 @@ struct Tube {
 // differences of the control points (P-splines, Eilers and Marx 1996), where the weights of missed
 // samples grow between iterations. `spacing` is the sample spacing divided by a whole number: near
 // a limit, which no control point passes, a finer curve can turn more sharply. Returns an empty
-// vector if no such curve was found.
+// vector if no such curve was found. `weights` (K, or empty) are those of the samples at the start
+// and, if a curve is found, at the end: those of a wider tube spare iterations.
 Eigen::VectorXd FitWithinTube(const std::vector<double>& times, const Eigen::VectorXd& values,
-                              double spacing, const Tube& tube);
+                              double spacing, const Tube& tube, Eigen::VectorXd* weights);
 
 }  // namespace simwright::robot

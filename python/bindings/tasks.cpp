@@ -101,8 +101,13 @@ nb::object Rollout(const fs::path& run, int episodes, std::uint64_t seed, const 
 }
 
 nb::object ExportRun(const fs::path& run, const fs::path& output, const std::string& format,
-                     int episodes, std::uint64_t seed, bool force, const nb::object& report) {
+                     int episodes, std::uint64_t seed, bool force, const std::string& pace,
+                     const nb::object& report) {
   workflows::ExportRequest request;
+  if (pace != "limits" && pace != "recorded") {
+    throw core::Error("is '" + pace + "'", "pace", "give limits or recorded");
+  }
+  request.at_recorded_speed = pace == "recorded";
   request.run = run;
   request.output = output;
   request.episodes = episodes;
@@ -160,7 +165,7 @@ void BindTasks(nb::module_& module) {
       "Returns the tasks' file, robot, settings and subtasks, with their policies' paths, of "
       "a folder of a training.");
   module.def("export_run", &ExportRun, "run"_a, "output"_a, "format"_a, "episodes"_a, "seed"_a,
-             "force"_a, "report"_a = nb::none());
+             "force"_a, "pace"_a, "report"_a = nb::none());
 }
 
 }  // namespace simwright::python

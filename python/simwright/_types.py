@@ -29,6 +29,7 @@ RunActionSpace = Literal["focus", "guided", "absolute", "delta", "joints", "join
 ActionSpace = Literal["focus", "guided", "absolute", "delta", "joints", "joint_targets",
                       "osc_delta"]
 TrajectoryFormat = Literal["ros2", "csv", "robomimic"]
+TrajectoryPace = Literal["limits", "recorded"]
 WorldFormat = Literal["urdf", "sdf", "mjcf", "drake", "usd"]
 ImageKind = Literal["rgb", "depth", "segmentation", "normal"]
 RenderMode = Literal["rgb_array"]

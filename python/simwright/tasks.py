@@ -10,7 +10,7 @@ from ._progress import reporter
 
 if TYPE_CHECKING:
     from ._types import (Names, Path, Paths, ProgressArgument, Report, RunActionSpace,
-                         TrajectoryFormat)
+                         TrajectoryFormat, TrajectoryPace)
 
 __all__ = ["export", "make", "read", "rollout", "train"]
 
@@ -124,7 +124,8 @@ def rollout(run: Path, episodes: int = 100, seed: int = 1, on: Path = "", tasks:
 
 
 def export(run: Path, output: Path, format: TrajectoryFormat = "ros2", episodes: int = 1,
-           seed: int = 1, force: bool = False, progress: ProgressArgument = None) -> Report:
+           seed: int = 1, force: bool = False, progress: ProgressArgument = None,
+           pace: TrajectoryPace = "limits") -> Report:
     """Exports trajectories or demonstrations of a training run, each verified by replay.
 
     Args:
@@ -135,6 +136,8 @@ def export(run: Path, output: Path, format: TrajectoryFormat = "ros2", episodes:
         seed (int): of their starts.
         force (bool): replaces an existing folder.
         progress: see ``simwright``.
+        pace (str): of trajectories: limits, as fast as the robot's limits and the task allow, or
+            recorded, at most as fast as recorded.
 
     Returns:
         dict: the report of ``simwright export --json``.
@@ -145,4 +148,4 @@ def export(run: Path, output: Path, format: TrajectoryFormat = "ros2", episodes:
     return cast("Report", _core.export_run(
         checked.path("run", run), checked.path("output", output), checked.text("format", format),
         checked.integer("episodes", episodes, 1), checked.seeded(seed), bool(force),
-        reporter(progress)))
+        checked.text("pace", pace), reporter(progress)))

@@ -72,6 +72,7 @@ def test_a_language_model_is_asked(chest, by_rules, server, tmp_path, monkeypatc
     (lambda file: sw.tasks.train(file, 3, "out"), "task: is 3"),
     (lambda file: sw.tasks.rollout("out", seed=-1), "seed"),
     (lambda file: sw.tasks.export("out", file, episodes=0), "episodes"),
+    (lambda file: sw.tasks.export("out", file, pace="fast"), "pace: is 'fast'"),
     (lambda file: sw.tasks.make(3, file), "assets"), (lambda file: sw.tasks.read(3), "file: is 3"),
 ])
 def test_bad_arguments(call, word, tmp_path):

@@ -71,6 +71,55 @@ INSTANTIATE_TEST_SUITE_P(Motions, AtTheLimits,
                                          Pace{MotionKind::kPolicy, 1.12},
                                          Pace{MotionKind::kCorners, 1.12}));
 
+// One joint from rest to rest: jerk-limited ramps of acceleration, then of velocity. Over a way
+// that reaches acceleration and velocity, the least duration is way / v + v / a + a / j.
+TEST(Retiming, OneJointTakesLittleMoreThanTheLeastDurationWithJerk) {
+  const double way = 1.0;
+  for (const double jerk : {100.0, 1000.0, 10000.0}) {
+    for (const double recorded : {0.8, 3.0}) {  // s: too fast, and slower than the limits
+      RecordedPath path;
+      path.joints = {"joint"};
+      const auto count = static_cast<Eigen::Index>(std::lround(recorded * 60.0)) + 1;
+      path.positions.resize(count, 1);
+      for (Eigen::Index k = 0; k < count; ++k) {
+        path.times.push_back(static_cast<double>(k) / 60.0);
+        path.positions(k, 0) =
+            0.5 * way * (1.0 - std::cos(std::numbers::pi * path.times.back() / recorded));
+      }
+      const std::vector<JointLimits> limits = {{-2, 2, 2, 10, jerk, 0}};
+      RetimingOptions options;
+      options.max_speed_up = 100.0;
+      const Retimed retimed = Retime(path, limits, {false}, nullptr, options);
+      const double least = way / 2.0 + 2.0 / 10.0 + 10.0 / jerk;
+      const double seconds = retimed.trajectory.times.back();
+      EXPECT_TRUE(CheckLimits(retimed.trajectory, limits).accepted());
+      // The rounded corners of the path's first and last milliradians are free.
+      EXPECT_GT(seconds, 0.995 * least) << jerk << " " << recorded;
+      EXPECT_LT(seconds, 1.1 * least) << jerk << " " << recorded;
+      RecordProperty("ratio_" + std::to_string(jerk) + "_" + std::to_string(recorded),
+                     std::to_string(seconds / least));
+    }
+  }
+}
+
+// Where limits slow a motion down, both searches end in local optima: that of the wider bound must
+// not be the worse one.
+TEST(Retiming, AnySpeedIsNotSlowerThanTheRecordedOne) {
+  const RobotModel& model = Panda(true);
+  const RetimedJoints joints = JointsToRetime(model);
+  for (const MotionKind kind : {MotionKind::kSmooth, MotionKind::kPolicy, MotionKind::kCorners}) {
+    const RecordedPath path = MakeMotion(model, kind, 0.7, 1000);
+    RetimingOptions options;
+    const auto seconds = [&] {
+      return Retime(path, joints.limits, joints.sliding, &model.arm, options)
+          .trajectory.times.back();
+    };
+    const double recorded = seconds();
+    options.max_speed_up = 100.0;
+    EXPECT_LE(seconds(), recorded + 2e-3);
+  }
+}
+
 // Rests take no time unless the pace is kept.
 TEST(Retiming, KeepsThePaceWhereItIsAsked) {
   RecordedPath path;

@@ -27,6 +27,7 @@ Eigen::RowVectorXd PositionsAt(const JointTrajectory& trajectory, double time) {
 struct Property {
   const char* robot;
   MotionKind kind;
+  double speed_up = 1.0;
 };
 
 class AnyMotion : public testing::TestWithParam<Property> {};
@@ -37,7 +38,8 @@ TEST_P(AnyMotion, IsAcceptedAndStaysClose) {
   const RobotModel model =
       ReadRobot(std::filesystem::path(SIMWRIGHT_SOURCE_DIR) / "robots" / GetParam().robot);
   const RetimedJoints joints = JointsToRetime(model);
-  const RetimingOptions options;
+  RetimingOptions options;
+  options.max_speed_up = GetParam().speed_up;
   for (std::uint64_t seed = 100; seed < 103; ++seed) {
     const RecordedPath path = MakeMotion(model, GetParam().kind, 4.0, seed);
     const Retimed retimed = Retime(path, joints.limits, joints.sliding, &model.arm, options);
@@ -78,16 +80,20 @@ TEST_P(AnyMotion, IsAcceptedAndStaysClose) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Motions, AnyMotion,
-                         testing::Values(Property{"panda/panda.urdf", MotionKind::kSmooth},
-                                         Property{"panda/panda.urdf", MotionKind::kFast},
-                                         Property{"panda/panda.urdf", MotionKind::kPolicy},
-                                         Property{"panda/panda.urdf", MotionKind::kNoisy},
-                                         Property{"panda/panda.urdf", MotionKind::kCorners},
-                                         Property{"panda/panda_on_base.urdf", MotionKind::kPolicy},
-                                         Property{"panda/panda_on_base.urdf", MotionKind::kCorners},
-                                         Property{"generic6/generic6.urdf", MotionKind::kFast},
-                                         Property{"generic6/generic6.urdf", MotionKind::kPolicy}));
+INSTANTIATE_TEST_SUITE_P(
+    Motions, AnyMotion,
+    testing::Values(Property{"panda/panda.urdf", MotionKind::kSmooth},
+                    Property{"panda/panda.urdf", MotionKind::kFast},
+                    Property{"panda/panda.urdf", MotionKind::kPolicy},
+                    Property{"panda/panda.urdf", MotionKind::kNoisy},
+                    Property{"panda/panda.urdf", MotionKind::kCorners},
+                    Property{"panda/panda.urdf", MotionKind::kSmooth, 100.0},
+                    Property{"panda/panda_on_base.urdf", MotionKind::kSmooth, 100.0},
+                    Property{"panda/panda_on_base.urdf", MotionKind::kNoisy, 100.0},
+                    Property{"panda/panda_on_base.urdf", MotionKind::kPolicy},
+                    Property{"panda/panda_on_base.urdf", MotionKind::kCorners},
+                    Property{"generic6/generic6.urdf", MotionKind::kFast},
+                    Property{"generic6/generic6.urdf", MotionKind::kPolicy}));
 
 // Returns a motion of one joint along a cosine, over `way` in `seconds`, then at rest for a second.
 RecordedPath Cosine(double way, double seconds) {

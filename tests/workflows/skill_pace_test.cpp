@@ -52,7 +52,17 @@ TEST_F(SkillPace, TheRecordingsPaceIsKeptWhereItIsAsked) {
   const json slow = json::parse(RunProgram(arguments + Path("slow.csv") + " --pace recorded").text);
   EXPECT_GE(slow.at("stretch").get<double>(), 1.0);
   EXPECT_LT(fast.at("stretch").get<double>(), slow.at("stretch").get<double>());
+  EXPECT_LE(fast.at("mean_seconds").get<double>(), slow.at("mean_seconds").get<double>());
   EXPECT_EQ(slow.at("slowed"), 0);
+  const auto faster = [](const json& report) {
+    for (const json& finding : report.at("findings")) {
+      if (finding.at("code") == "export-faster") return finding.at("figure").get<double>();
+    }
+    return 1.0;
+  };
+  EXPECT_EQ(faster(fast), fast.at("least_stretch").get<double>());
+  EXPECT_LT(faster(fast), 1.0);
+  EXPECT_EQ(faster(slow), 1.0);
   const Outcome replay = RunProgram("replay " + Path("fast.csv") + " " + Path("slow.csv"));
   EXPECT_EQ(replay.code, 0) << replay.text;
 }

@@ -87,7 +87,10 @@ void AddMargins(const SkillMotion& motion, const skills::Skill& skill, ExportRep
     margins.deviation =
         std::max(margins.deviation, motion.retimed.deviations[static_cast<Eigen::Index>(j)]);
   }
-  report->stretch = std::max(report->stretch, motion.retimed.stretch);
+  const double stretch = motion.retimed.stretch;
+  report->least_stretch =
+      report->stretch > 0.0 ? std::min(report->least_stretch, stretch) : stretch;
+  report->stretch = std::max(report->stretch, stretch);
   report->tool_deviation = std::max(report->tool_deviation, motion.retimed.tool_deviation);
   report->seconds += motion.retimed.trajectory.times.back() / report->episodes;
 }
@@ -236,6 +239,26 @@ void AddSlowed(ExportReport* report) {
   finding.figure = report->slowed;
 }
 
+// States by how much the motions are faster than their recordings.
+void AddFaster(ExportReport* report) {
+  if (report->least_stretch >= 1.0) return;
+  char shares[64];
+  if (report->episodes > 1) {
+    std::snprintf(shares, sizeof(shares), "the motions take %.2f to %.2f", report->least_stretch,
+                  report->stretch);
+  } else {
+    std::snprintf(shares, sizeof(shares), "the motion takes %.2f", report->stretch);
+  }
+  core::Finding& finding = report->findings.emplace_back();
+  finding.code = "export-faster";
+  finding.severity = core::Severity::kInfo;
+  finding.sentence = std::string(shares) +
+                     " times as long as recorded: grasps and other contacts were recorded at the "
+                     "slower pace, and their replay at this one succeeded in simulation";
+  finding.remedy = "use --pace recorded if a real contact needs the recorded pace";
+  finding.figure = report->least_stretch;
+}
+
 // Warns if "valid" is smaller than a batch, which robomimic's loader drops.
 void AddValidSteps(const robot::DemonstrationSet& set, ExportReport* report) {
   const size_t steps = ValidSteps(set);
@@ -300,6 +323,7 @@ ExportReport Export(const ExportRequest& request, core::Progress* progress) {
   for (const SkillMotion& motion : motions) {
     AddMargins(motion, *task.skills().front().evaluated, &report);
   }
+  AddFaster(&report);
   WriteMotions(motions, request, verifier.names());
   return report;
 }
@@ -344,6 +368,7 @@ std::string ExportJson(const ExportReport& report) {
   if (report.joints.empty()) return core::JsonText(text);
   text["mean_seconds"] = report.seconds;
   text["stretch"] = report.stretch;
+  text["least_stretch"] = report.least_stretch;
   text["tool_deviation"] = report.tool_deviation;
   for (const JointMargins& joint : report.joints) {
     text["joints"].push_back({{"name", joint.worst.joint},

@@ -47,6 +47,7 @@ struct ExportReport {
   std::vector<JointMargins> joints;
   double seconds = 0.0;         // mean duration
   double stretch = 0.0;         // the largest ratio of a motion's duration to its recording's
+  double least_stretch = 0.0;   // the smallest
   double tool_deviation = 0.0;  // m, the largest
 };
 
