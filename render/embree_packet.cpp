@@ -1,5 +1,7 @@
 #include "render/embree_packet.h"
 
+#include <embree3/rtcore.h>
+
 #include <algorithm>
 
 namespace simwright::render {
@@ -50,7 +52,7 @@ void IntersectLanes(const PacketQuery& query, const PacketDirections& directions
 
 }  // namespace
 
-bool HasWidePackets(RTCDevice device) {
+bool HasWidePackets(RTCDeviceTy* device) {
   return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Core>
 
 #include "render/ray_packet.h"
+
+struct RTCDeviceTy;  // Embree's
+struct RTCSceneTy;
 
 namespace simwright::render {
 
@@ -13,7 +14,7 @@ inline constexpr int kGeometryIsPart = -1;
 
 // A query of a packet of rays, whose parameters lie in (near, PacketHits::depth).
 struct PacketQuery {
-  RTCScene scene = nullptr;
+  RTCSceneTy* scene = nullptr;
   bool wide = false;  // traces 16 rays together, else 8 (HasWidePackets)
   Eigen::Vector3f origin;
   float near = 0.0f;
@@ -21,7 +22,7 @@ struct PacketQuery {
 };
 
 // Returns true if this processor traces 16 rays together.
-bool HasWidePackets(RTCDevice device);
+bool HasWidePackets(RTCDeviceTy* device);
 
 // Replaces the hits of the traced rays by nearer ones of the query's scene.
 void IntersectPacket(const PacketQuery& query, const PacketDirections& directions,

@@ -1,6 +1,7 @@
 // Packets of eight rays, on processors without AVX-512, hit what packets of 16 do.
 #include "render/embree_packet.h"
 
+#include <embree3/rtcore.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
