@@ -39,6 +39,8 @@ using Run = std::function<int()>;
 int ReportStopped(const std::filesystem::path& folder);
 
 void AddCommon(CLI::App* command, CommonOptions* common);
+// Adds --device, for subcommands that run networks.
+void AddDevice(CLI::App* command);
 void AddForce(CLI::App* command, CommonOptions* common);
 void AddLift(CLI::App* app, CommonOptions* common, Run* run);
 void AddMat(CLI::App* app, CommonOptions* common, Run* run);

@@ -4,6 +4,7 @@
 
 #include "cli/number_validators.h"
 #include "cli/usage.h"
+#include "core/device_choice.h"
 #include "core/log.h"
 
 namespace simwright::cli {
@@ -36,6 +37,15 @@ void AddCommon(CLI::App* command, CommonOptions* common) {
                    "takes precedence")
       ->default_str("none")
       ->configurable(false);
+}
+
+void AddDevice(CLI::App* command) {
+  AddChoice(command, "--device", {"auto", "cpu", "cuda"}, "auto",
+            "Processor of networks; auto: a GPU if there is one", [](const std::string& name) {
+              core::ChooseDevice(name == "cpu"    ? core::DeviceChoice::kCpu
+                                 : name == "cuda" ? core::DeviceChoice::kCuda
+                                                  : core::DeviceChoice::kAuto);
+            });
 }
 
 void AddForce(CLI::App* command, CommonOptions* common) {

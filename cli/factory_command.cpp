@@ -78,6 +78,7 @@ void AddFactory(CLI::App* app, CommonOptions* common, Run* run) {
   command->add_flag("--resume", request.resume, "Resume the folder's work, or join it");
   AddImageGenerator(command, &flags->generator);
   AddCommon(command, common);
+  AddDevice(command);
   command->callback([flags, common, run] { *run = [=] { return Factory(*flags, *common); }; });
 }
 

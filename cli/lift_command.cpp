@@ -331,6 +331,7 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       ->capture_default_str();
   AddGenerator(command, &flags->generator, &flags->request);
   AddCommon(command, common);
+  AddDevice(command);
   AddForce(command, common);
   command->callback([flags, common, run] { *run = [=] { return Lift(*flags, *common); }; });
 }

@@ -231,6 +231,7 @@ void AddPrior(CLI::App* app, CommonOptions* common, Run* run) {
       "Folder of initial weights of the priors that are trained, to fine-tune them");
   command->add_flag("--resume", flags->resume, "Resume an earlier run in the folder");
   AddCommon(command, common);
+  AddDevice(command);
   command->callback([flags, common, run] { *run = [=] { return TrainPriors(*flags, *common); }; });
 }
 

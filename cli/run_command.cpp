@@ -177,6 +177,7 @@ void AddRun(CLI::App* app, CommonOptions* common, Run* run) {
                      &request->target, &request->episodes, &request->imitated_samples);
   command->add_flag("--resume", request->resume, "Resume an interrupted run");
   AddCommon(command, common);
+  AddDevice(command);
   AddForce(command, common);
   command->callback([command, flags, common, run] {
     RequireRunSource(*command, *flags);

@@ -66,6 +66,7 @@ void AddTrainFeatures(CLI::App* features, CommonOptions* common, Run* run) {
   command->add_option("--batch", request->options.batch, "Images per update")
       ->capture_default_str();
   AddCommon(command, common);
+  AddDevice(command);
   command->callback(
       [request, common, run] { *run = [=] { return TrainFeatures(*request, *common); }; });
 }
@@ -126,6 +127,7 @@ void AddSceneEvaluate(CLI::App* scene, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_option("-o,--output", request->output, "The folder for metrics.json and sheet.png");
   AddCommon(command, common);
+  AddDevice(command);
   command->callback([request, common, run] { *run = [=] { return Evaluate(*request, *common); }; });
 }
 

@@ -170,6 +170,7 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_flag("--resume", options.trainer.resume, "Resume from the folder's checkpoint");
   AddCommon(command, common);
+  AddDevice(command);
   AddForce(command, common);
   command->callback(
       [flags, common, run] { *run = [=] { return TrainSceneModel(*flags, *common); }; });
@@ -216,6 +217,7 @@ void AddSceneSample(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_flag("--raw", request->raw,
                     "Keep the model's samples, with interpenetrations and unsupported objects");
   AddCommon(command, common);
+  AddDevice(command);
   AddForce(command, common);
   command->callback([request, added, common, run] {
     *run = [=] {

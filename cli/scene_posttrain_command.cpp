@@ -101,6 +101,7 @@ void AddScenePosttrain(CLI::App* scene, CommonOptions* common, Run* run) {
   command->add_option("-o,--output", request->output, "The folder for weights and curves")
       ->required();
   AddCommon(command, common);
+  AddDevice(command);
   AddForce(command, common);
   command->callback(
       [request, common, run] { *run = [=] { return PostTrain(*request, *common); }; });

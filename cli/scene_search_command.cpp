@@ -123,6 +123,7 @@ void AddSceneSearch(CLI::App* scene, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_flag("--resume", request->resume, "Continue the search in the output folder");
   AddCommon(command, common);
+  AddDevice(command);
   AddForce(command, common);
   command->callback(
       [request, common, run] { *run = [=] { return SearchForScene(*request, *common); }; });

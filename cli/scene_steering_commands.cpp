@@ -62,6 +62,7 @@ void AddSteering(CLI::App* command, workflows::SceneSteeringRequest* request,
       ->check(CLI::IsMember({"clean", "noised"}))
       ->default_str("clean");
   AddCommon(command, common);
+  AddDevice(command);
   AddForce(command, common);
 }
 

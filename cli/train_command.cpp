@@ -127,6 +127,7 @@ void AddTrain(CLI::App* app, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_flag("--resume", request->resume, "Resume an interrupted run");
   AddCommon(command, common);
+  AddDevice(command);
   command->callback([flags, common, run] { *run = [=] { return TrainSkill(*flags, *common); }; });
 }
 

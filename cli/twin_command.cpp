@@ -139,6 +139,7 @@ void AddTwin(CLI::App* app, CommonOptions* common, Run* run) {
       ->capture_default_str();
   AddLanguageModel(command, &flags->vision);
   AddCommon(command, common);
+  AddDevice(command);
   AddForce(command, common);
   command->callback([flags, common, run] { *run = [=] { return Twin(*flags, *common); }; });
 }

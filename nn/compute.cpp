@@ -6,6 +6,8 @@
 
 #include <ATen/ThreadLocalState.h>
 
+#include "core/device_choice.h"
+#include "core/error.h"
 #include "core/parallel.h"
 
 // Functions of the OpenMP that libtorch uses, and of OpenBLAS if it provides libblas: it has its
@@ -22,7 +24,14 @@ __attribute__((weak)) int MKL_Set_Num_Threads_Local(int count);
 namespace simwright::nn {
 
 torch::Device BestDevice() {
-  return torch::Device(torch::cuda::is_available() ? torch::kCUDA : torch::kCPU);
+  const core::DeviceChoice choice = core::ChosenDevice();
+  if (choice == core::DeviceChoice::kCpu) return torch::Device(torch::kCPU);
+  const bool has_gpu = torch::cuda::is_available();
+  if (choice == core::DeviceChoice::kCuda && !has_gpu) {
+    throw core::Error("libtorch finds no GPU", "--device cuda",
+                      "use --device auto, or build with a libtorch that has CUDA (docs/lift.md)");
+  }
+  return torch::Device(has_gpu ? torch::kCUDA : torch::kCPU);
 }
 
 void PrepareForWork() {

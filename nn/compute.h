@@ -6,7 +6,8 @@
 
 namespace simwright::nn {
 
-// Returns CUDA if libtorch finds it, else the CPU.
+// Returns the device that core::ChosenDevice() stands for. Throws core::Error for kCuda where
+// libtorch finds no GPU.
 torch::Device BestDevice();
 
 // Gives libtorch core::ThreadCount() threads for the loops of the calling thread (its default is

@@ -8,6 +8,8 @@
 #include <ctime>
 #include <thread>
 
+#include "core/device_choice.h"
+#include "core/error.h"
 #include "core/parallel.h"
 
 namespace simwright::nn {
@@ -80,6 +82,19 @@ TEST(ForEachShare, LeavesNoThreadsThatSpin) {
   core::SetThreadCount(before);
   // A thread of libtorch's pool that spins meanwhile takes 0.4 s.
   EXPECT_LT(seconds, 0.1);
+}
+
+TEST(BestDevice, IsThatOfTheChoice) {
+  core::ChooseDevice(core::DeviceChoice::kCpu);
+  EXPECT_TRUE(BestDevice().is_cpu());
+  core::ChooseDevice(core::DeviceChoice::kCuda);
+  if (torch::cuda::is_available()) {
+    EXPECT_TRUE(BestDevice().is_cuda());
+  } else {
+    EXPECT_THROW(BestDevice(), core::Error);
+  }
+  core::ChooseDevice(core::DeviceChoice::kAuto);
+  EXPECT_EQ(BestDevice().is_cuda(), torch::cuda::is_available());
 }
 
 TEST(ShareCount, IsOneAThreadAndAtMostOneAnItem) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/device_choice.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
@@ -84,6 +85,8 @@ LearningShares SharesOf(std::int64_t samples, const rl::PpoOptions& options, int
 rl::TrainingOptions OptionsFor(const TrainRequest& request, const SkillRun& run,
                                const RunSkill& skill) {
   rl::TrainingOptions options;
+  // The networks are small: a GPU only on request.
+  options.ppo.cuda = core::ChosenDevice() == core::DeviceChoice::kCuda;
   options.ppo.discount = run.options.discount;
   // These values, with a discount of 0.98, learn faster and generalise better than shorter horizons
   // and smaller minibatches, and than longer horizons and larger minibatches with a discount of
