@@ -16,10 +16,9 @@ struct PpoOptions {
   std::vector<int> hidden = {256, 128, 64};
   Activation activation = Activation::kElu;
 
-  // Actions lie in [-1, 1]: at 0.35 one sample in 200 is clamped at the start. With this and the
-  // `target_kl` below an inverted pendulum needs 0.4 times the samples that it needs with 0.6 and
-  // 0.01 (docs/figures.md); skills are trained with these values, too.
-  double initial_std = 0.35;
+  // Actions lie in [-1, 1]: at 0.6 one sample in ten is clamped at the start, and both ends are
+  // reached.
+  double initial_std = 0.6;
   // Below the smallest standard deviation the policy's KL divergence reacts to rounding; above the
   // largest nearly all actions are clamped, and the entropy bonus could grow without bound.
   double smallest_std = 0.02;
@@ -71,7 +70,7 @@ struct PpoOptions {
   // below half of it. Adapting after each minibatch (Rudin et al. 2022) makes the rate oscillate:
   // the first ones of an update are always close to the old policy, the last far from it.
   double learning_rate = 1e-3;
-  double target_kl = 0.02;  // 0: the rate is constant
+  double target_kl = 0.01;  // 0: the rate is constant
   // The bounds of the rate: at the lower one learning stops, above the upper one Adam's steps undo
   // orthogonal weights within an iteration.
   double smallest_rate = 1e-5;
