@@ -33,8 +33,8 @@ Settings DefaultSettings() {
   settings.ppo.horizon = 128;
   settings.ppo.minibatch = 512;
   settings.ppo.hidden = {64, 64};
-  // As skills are trained. The library's own values need 2.2 times the samples here, but come closer
-  // to the best policy of a point that reaches (tests/rl/ppo_test.cpp).
+  // As skills are trained. The library's own values need 2.2 times the samples here, but come
+  // closer to the best policy of a point that reaches (tests/rl/ppo_test.cpp).
   settings.ppo.initial_std = 0.35;
   settings.ppo.target_kl = 0.02;
   return settings;
