@@ -220,7 +220,8 @@ class TileRenderer {
     Shader::LastAlbedo albedo;
     for (int sample = 0; sample < n * n; ++sample) {
       const bool representative = sample == (n / 2) * n + n / 2;
-      Trace(tile, (sample % n + 0.5) / n, (sample / n + 0.5) / n, &rays, &hits);
+      const int column = sample % n, row = sample / n;
+      Trace(tile, (column + 0.5) / n, (row + 0.5) / n, &rays, &hits);
       ForPixels(tile, [&](int k, size_t at) {
         if (representative) {
           buffers_.depth[at] = hits.part[k] >= 0 ? hits.depth[k] : 0.0f;

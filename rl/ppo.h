@@ -17,12 +17,12 @@ struct LearnerState;
 
 // Proximal policy optimization: collects rollouts in an environment and learns from them. All
 // random numbers derive from options.seed: the same seed and machine give bit-identical policies,
-// for any number of threads. With several ranks, which all call the same members, each steps its own
-// environment, and all have the same policy.
+// for any number of threads. With several ranks, which all call the same members, each steps its
+// own environment, and all have the same policy.
 class Ppo {
  public:
-  // Resets `environment`, which must outlive this, and calls nn::PrepareForWork. `ranks` must outlive this. Throws core::Error for invalid options and for an
-  // environment without size.
+  // Resets `environment`, which must outlive this, and calls nn::PrepareForWork. `ranks` must
+  // outlive this. Throws core::Error for invalid options and for an environment without size.
   Ppo(VectorEnvironment* environment, const PpoOptions& options,
       Communicator* ranks = SingleProcess());
   ~Ppo();
