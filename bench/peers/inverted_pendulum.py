@@ -65,7 +65,7 @@ def main():
     for count in (1, 16):
         for seed in range(options.first_seed, options.first_seed + options.seeds):
             start = time.perf_counter()
-            # As many samples per update for both.
+            # Both numbers of environments have 2048 samples per update.
             model = PPO("MlpPolicy", make_vec_env(TASK, count, seed=seed), seed=seed, device="cpu",
                         n_steps=2048 // count)
             play = Play(options.play_every)

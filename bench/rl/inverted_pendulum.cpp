@@ -33,8 +33,8 @@ Settings DefaultSettings() {
   settings.ppo.horizon = 128;
   settings.ppo.minibatch = 512;
   settings.ppo.hidden = {64, 64};
-  // As skills are trained. The library's own values need 2.2 times the samples here, but come
-  // closer to the best policy of a point that reaches (tests/rl/ppo_test.cpp).
+  // The values with which skills are trained. The library's own need 2.2 times the samples here,
+  // but come closer to the best policy of a point that reaches (tests/rl/ppo_test.cpp).
   settings.ppo.initial_std = 0.35;
   settings.ppo.target_kl = 0.02;
   return settings;
@@ -58,24 +58,11 @@ void AddOptions(CLI::App* app, Settings* settings) {
   app->add_option_function<int>("--threads", core::SetThreadCount, "Number of threads");
 }
 
-// Returns the mean return over one episode of each of kPlayed environments.
+// Returns the mean return over kPlayed episodes.
 double Play(const rl::Policy& policy) {
-  rl::InvertedPendulum environment(kPlayed);
-  rl::Rows observations, actions;
-  environment.Reset(12345, &observations);
-  rl::StepBatch batch;
-  std::vector<int> lasted(kPlayed, 0);
-  for (int step = 1; step <= rl::InvertedPendulum::kLongest; ++step) {
-    policy.Act(observations, &actions);
-    environment.Step(actions, &batch);
-    for (std::size_t i = 0; i < kPlayed; ++i) {
-      if (lasted[i] == 0 && (batch.terminated[i] || batch.truncated[i])) lasted[i] = step;
-    }
-    observations = batch.observations;
-  }
-  double sum = 0.0;
-  for (const int steps : lasted) sum += steps;
-  return sum / kPlayed;
+  return rl::MeanStepsUpright(kPlayed, 12345, [&](const rl::Rows& observations, rl::Rows* actions) {
+    policy.Act(observations, actions);
+  });
 }
 
 void Train(const Settings& settings, std::uint64_t seed) {

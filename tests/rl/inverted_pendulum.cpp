@@ -104,4 +104,24 @@ void InvertedPendulum::RestoreState(std::string_view, Rows*) {
   throw core::Error("cannot be restored", "inverted pendulum");
 }
 
+double MeanStepsUpright(int count, std::uint64_t seed,
+                        const std::function<void(const Rows& observations, Rows* actions)>& act) {
+  InvertedPendulum environment(count);
+  Rows observations, actions;
+  environment.Reset(seed, &observations);
+  StepBatch batch;
+  std::vector<int> lasted(static_cast<std::size_t>(count), 0);
+  for (int step = 1; step <= InvertedPendulum::kLongest; ++step) {
+    act(observations, &actions);
+    environment.Step(actions, &batch);
+    for (std::size_t i = 0; i < lasted.size(); ++i) {
+      if (lasted[i] == 0 && (batch.terminated[i] || batch.truncated[i])) lasted[i] = step;
+    }
+    observations = batch.observations;
+  }
+  double sum = 0.0;
+  for (const int steps : lasted) sum += steps;
+  return sum / count;
+}
+
 }  // namespace simwright::rl

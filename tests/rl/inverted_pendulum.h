@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -40,5 +42,11 @@ class InvertedPendulum : public VectorEnvironment {
   sim::ArticulatedBody body_;
   std::vector<Cart> carts_;
 };
+
+// Returns the mean number of steps, of at most InvertedPendulum::kLongest, for which `act`, which
+// writes actions (count x 1) for observations (count x 4), keeps the pole upright: over the first
+// episode of each of `count` environments.
+double MeanStepsUpright(int count, std::uint64_t seed,
+                        const std::function<void(const Rows& observations, Rows* actions)>& act);
 
 }  // namespace simwright::rl

@@ -53,21 +53,8 @@ TEST(Ppo, KeepsAPoleUpright) {
     ppo.Update();
   }
   const Policy policy = ppo.CurrentPolicy();
-  InvertedPendulum fresh(20);
-  Rows observations, actions;
-  StepBatch batch;
-  fresh.Reset(7, &observations);
-  std::vector<double> lasted(20, 0.0);
-  for (int step = 1; step <= InvertedPendulum::kLongest; ++step) {
-    policy.Act(observations, &actions);
-    fresh.Step(actions, &batch);
-    for (std::size_t i = 0; i < 20; ++i) {
-      if (lasted[i] == 0.0 && (batch.terminated[i] || batch.truncated[i])) lasted[i] = step;
-    }
-    observations = batch.observations;
-  }
-  double mean = 0.0;
-  for (const double steps : lasted) mean += steps / 20.0;
+  const double mean = MeanStepsUpright(
+      20, 7, [&](const Rows& observations, Rows* actions) { policy.Act(observations, actions); });
   EXPECT_GE(mean, 950.0);
   core::SetThreadCount(0);
 }

@@ -168,23 +168,13 @@ TEST(Ppo, TwoRanksKeepAPoleUpright) {
     EXPECT_EQ(ppo.samples() % (16 * 128), 0);
     policies[static_cast<std::size_t>(ranks->rank())] = ppo.CurrentPolicy();
   });
-  InvertedPendulum fresh(20);
-  Rows observations, actions, others;
-  StepBatch batch;
-  fresh.Reset(7, &observations);
-  std::vector<double> lasted(20, 0.0);
-  for (int step = 1; step <= InvertedPendulum::kLongest; ++step) {
-    policies[0]->Act(observations, &actions);
+  Rows others;
+  const double mean = MeanStepsUpright(20, 7, [&](const Rows& observations, Rows* actions) {
+    policies[0]->Act(observations, actions);
     policies[1]->Act(observations, &others);
-    ASSERT_TRUE((actions.array() == others.array()).all());
-    fresh.Step(actions, &batch);
-    for (std::size_t i = 0; i < 20; ++i) {
-      if (lasted[i] == 0.0 && (batch.terminated[i] || batch.truncated[i])) lasted[i] = step;
-    }
-    observations = batch.observations;
-  }
-  double mean = 0.0;
-  for (const double steps : lasted) mean += steps / 20.0;
+    ASSERT_TRUE((actions->array() == others.array()).all());
+  });
+  ASSERT_FALSE(HasFatalFailure());
   EXPECT_GE(mean, 950.0);
   core::SetThreadCount(0);
 }

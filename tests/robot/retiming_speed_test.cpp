@@ -102,8 +102,8 @@ TEST(Retiming, OneJointTakesLittleMoreThanTheLeastDurationWithJerk) {
   }
 }
 
-// Where limits slow a motion down, both searches end in local optima: that of the wider bound must
-// not be the worse one.
+// Both searches end in local optima, if limits slow the motion down: the optimum of the wider bound
+// must not be the worse one.
 TEST(Retiming, AnySpeedIsNotSlowerThanTheRecordedOne) {
   const RobotModel& model = Panda(true);
   const RetimedJoints joints = JointsToRetime(model);

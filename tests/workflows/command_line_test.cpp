@@ -240,6 +240,7 @@ TEST_F(CommandLine, WrongUsageIsExitTwo) {
   EXPECT_EQ(RunProgram("lift").code, 2);
   EXPECT_EQ(RunProgram("no-such-command").code, 2);
   EXPECT_EQ(RunProgram("import x.obj -o y --unit parsec").code, 2);
+  EXPECT_EQ(RunProgram("scene sample --type dimsum -o " + Out() + " --device gpu").code, 2);
   EXPECT_EQ(RunProgram("--help").code, 0);
   for (const char* command : {"lift", "import", "physics", "check", "doctor", "version"}) {
     const Outcome help = RunProgram(std::string(command) + " --help");
