@@ -3,6 +3,7 @@
 //   bench_skill_suite                                the shipped policies, a minute
 //   bench_skill_suite --script                       the scripted expert, 3 minutes
 //   bench_skill_suite --cell NAME --train [--ship]   trains a cell (all: one after the other)
+//   bench_skill_suite --on-seeds 301 9001            each cell on eight instances of either range
 // An interrupted training resumes; a finished cell is kept: remove its folder to repeat it.
 #include <cstdio>
 #include <optional>
@@ -33,6 +34,9 @@ struct Arguments {
   std::int64_t imitated = workflows::TrainRequest().imitated_samples;
   int episodes = 300;
   double finger_friction = 0.0;  // of the evaluation; 0: the robot's own
+  // The first seeds of the ranges of evaluation instances, each evaluated apart, and their length.
+  std::vector<std::uint64_t> first_seeds = {workflows::kUnseenSeed};
+  int range = workflows::kUnseenInstances;
   std::uint64_t seed = 1;
   fs::path output = "out/skill_suite";
   fs::path models = fs::path(SIMWRIGHT_SOURCE_DIR) / "models";
@@ -52,8 +56,18 @@ int InstancesOf(const workflows::SuiteCell& cell, const Arguments& arguments) {
   return arguments.instances > 0 ? arguments.instances : cell.instances;
 }
 
+// Returns the folder of the assets and tasks of a range of evaluation instances.
+fs::path UnseenFolder(const Arguments& arguments, std::uint64_t first_seed) {
+  if (first_seed == workflows::kUnseenSeed && arguments.range == workflows::kUnseenInstances) {
+    return arguments.output / "unseen";
+  }
+  return arguments.output /
+         ("unseen_" + std::to_string(first_seed) + "_" + std::to_string(arguments.range));
+}
+
 workflows::SkillRun UnseenRun(const workflows::SuiteCell& cell, skills::ActionSpace action,
-                              const Arguments& arguments, core::Progress* progress) {
+                              const Arguments& arguments, std::uint64_t first_seed,
+                              core::Progress* progress) {
   // The object reconstructed from the one photo is the only one to pick.
   const bool photo = cell.kind == "photo";
   workflows::SkillRun run;
@@ -63,10 +77,10 @@ workflows::SkillRun UnseenRun(const workflows::SuiteCell& cell, skills::ActionSp
     run.options.finger_friction =
         skills::FactorRange{arguments.finger_friction, arguments.finger_friction};
   }
-  run.folder = arguments.output / (photo ? "seen" : "unseen") / cell.name;
-  run.set = tasks::ReadTaskFile(
-      MakeCellTasks(cell, photo ? workflows::kSeenSeed : workflows::kUnseenSeed,
-                    workflows::kUnseenInstances, Photo(), run.folder, progress));
+  run.folder =
+      (photo ? arguments.output / "seen" : UnseenFolder(arguments, first_seed)) / cell.name;
+  run.set = tasks::ReadTaskFile(MakeCellTasks(cell, photo ? workflows::kSeenSeed : first_seed,
+                                              arguments.range, Photo(), run.folder, progress));
   return run;
 }
 
@@ -84,12 +98,13 @@ void PrintByTask(const skills::Skill& skill, const skills::SkillEvaluation& eval
 // Evaluates a policy file, or the scripted expert.
 skills::SkillEvaluation EvaluateUnseen(const workflows::SuiteCell& cell,
                                        const std::optional<fs::path>& policy,
-                                       const Arguments& arguments, core::Progress* progress) {
+                                       const Arguments& arguments, std::uint64_t first_seed,
+                                       core::Progress* progress) {
   std::optional<rl::Policy> known;
   if (policy) known = rl::ReadPolicy(*policy);
   const skills::ActionSpace action =
       known ? workflows::ActionSpaceOf(*known) : workflows::TrainRequest().action;
-  const auto skills = PrepareSkills(UnseenRun(cell, action, arguments, progress));
+  const auto skills = PrepareSkills(UnseenRun(cell, action, arguments, first_seed, progress));
   const skills::Skill& skill = *skills.front().evaluated;
   progress->Stage("evaluate " + cell.name);
   const auto starts = skills::SampleStarts(skill, arguments.episodes, 7000 + arguments.seed);
@@ -103,7 +118,7 @@ std::string Row(const CellResult& result) {
   char line[160];
   const skills::SkillEvaluation& unseen = result.unseen;
   std::snprintf(line, sizeof(line),
-                "| %-21s | %5.0fk | %5.1f | %3d of %3zu | %5.1f %% (%.1f-%.1f) | %.1f s |\n",
+                "| %-26s | %5.0fk | %5.1f | %3d of %3zu | %5.1f %% (%.1f-%.1f) | %.1f s |\n",
                 result.name.c_str(), 1e-3 * result.samples, result.minutes, unseen.successes,
                 unseen.episodes.size(), 100.0 * unseen.rate(), 100.0 * unseen.interval.low,
                 100.0 * unseen.interval.high, unseen.seconds);
@@ -173,7 +188,7 @@ CellResult Train(const workflows::SuiteCell& cell, const Arguments& arguments,
   result.samples = static_cast<double>(report.skills.front().samples);
   result.minutes = report.skills.front().seconds / 60.0;
   const fs::path policy = report.skills.front().folder / rl::kPolicyFile;
-  result.unseen = EvaluateUnseen(cell, policy, arguments, progress);
+  result.unseen = EvaluateUnseen(cell, policy, arguments, workflows::kUnseenSeed, progress);
   if (arguments.ship) {
     const fs::path shipped = workflows::ShippedPolicy(arguments.models, cell.name);
     fs::create_directories(shipped.parent_path());
@@ -186,23 +201,33 @@ CellResult Train(const workflows::SuiteCell& cell, const Arguments& arguments,
   return result;
 }
 
+// Evaluates the cell's shipped policy, or the expert, on each range of instances and prints a row
+// for each.
+void EvaluateRanges(const workflows::SuiteCell& cell, const Arguments& arguments,
+                    core::Progress* progress) {
+  std::optional<fs::path> policy;
+  if (!arguments.script) policy = workflows::ShippedPolicy(arguments.models, cell.name);
+  if (policy && !fs::exists(*policy)) return;
+  for (const std::uint64_t first_seed : arguments.first_seeds) {
+    CellResult result;
+    result.name = cell.name;
+    if (arguments.first_seeds.size() > 1) result.name += " " + std::to_string(first_seed);
+    result.unseen = EvaluateUnseen(cell, policy, arguments, first_seed, progress);
+    progress->Finish();
+    std::fputs(Row(result).c_str(), stdout);
+    std::fflush(stdout);
+  }
+}
+
 void Run(const Arguments& arguments) {
   core::Progress progress(core::Progress::StyleForStderr());
   for (const workflows::SuiteCell& cell : workflows::SkillSuite()) {
     if (arguments.cell != "all" && arguments.cell != cell.name) continue;
-    CellResult result;
-    const fs::path shipped = workflows::ShippedPolicy(arguments.models, cell.name);
-    if (arguments.train) {
-      result = Train(cell, arguments, &progress);
-    } else if (arguments.script) {
-      result.name = cell.name;
-      result.unseen = EvaluateUnseen(cell, std::nullopt, arguments, &progress);
-    } else if (fs::exists(shipped)) {
-      result.name = cell.name;
-      result.unseen = EvaluateUnseen(cell, shipped, arguments, &progress);
-    } else {
+    if (!arguments.train) {
+      EvaluateRanges(cell, arguments, &progress);
       continue;
     }
+    const CellResult result = Train(cell, arguments, &progress);
     progress.Finish();
     std::fputs(Row(result).c_str(), stdout);
     std::fflush(stdout);
@@ -231,6 +256,12 @@ int main(int argc, char** argv) {
                  "Training instances; 0: the cell's own number");
   app.add_option("--finger-friction", arguments.finger_friction,
                  "Finger friction in the evaluation; 0: the robot's own, 2");
+  app.add_option("--on-seeds", arguments.first_seeds,
+                 "First seeds of the ranges of evaluation instances, each evaluated apart")
+      ->capture_default_str();
+  app.add_option("--range", arguments.range, "Evaluation instances of a range")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   app.add_option("--episodes", arguments.episodes, "Episodes of the evaluation")
       ->capture_default_str();
   app.add_option("--seed", arguments.seed, "Seed of the training")->capture_default_str();
