@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "manipulation/gripper_penetration.h"
+#include "manipulation/outer_section_grasp.h"
 
 namespace simwright::manipulation {
 namespace {
@@ -17,6 +18,7 @@ constexpr double kLargestPenetration = 0.008;  // m: a deeper penetration blocks
 constexpr double kSuccessShare = 0.8;  // share of a joint's range at which its tasks succeed
 constexpr double kBackwards = 0.75;  // of the tool's axis, back at the robot: beyond an arm's reach
 constexpr double kAlike = std::numbers::pi / 6.0;  // rad between an approach and a grasp like it
+constexpr double kBetweenPads = 0.01;              // m from the axis of a part that turns in place
 constexpr double kShallower = 0.003;        // m: a pull slides off fingertips, and not off pads
 constexpr size_t kMostAlike = 4;            // grasps: the gripper is checked at each
 constexpr double kApproachFromBelow = 0.7;  // of the tool's axis, upwards
@@ -61,6 +63,33 @@ Fit FitOf(const Isometry3d& link_from_grasp, const SurfacePoints& hand,
   return fit;
 }
 
+// Returns true if the joint rotates the part about an axis that passes between the pads: only
+// these, and not a lever arm, turn it.
+bool TurnsInPlace(const Interaction& interaction, const Isometry3d& link_from_grasp) {
+  const InteractionTarget& target = *interaction.target;
+  const tasks::ArticulatedObject& object =
+      interaction.model.objects[static_cast<size_t>(target.object)];
+  const tasks::ObjectJoint& joint = object.joints[static_cast<size_t>(target.joint)];
+  if (joint.type == reward::RewardJointType::kPrismatic) return false;
+  const std::vector<Isometry3d> poses = tasks::LinkPosesOf(object, tasks::RestPositions(object));
+  const Vector3d arm = (poses[static_cast<size_t>(joint.link)].inverse() *
+                        poses[static_cast<size_t>(target.link)] * link_from_grasp)
+                           .translation();
+  return arm.cross(joint.axis).norm() < kBetweenPads;
+}
+
+// Returns a grasp of a part that turns in place as one of its outer section (GraspOfOuterSection).
+Isometry3d OnOuterSection(const Interaction& interaction, const SurfacePoints& hand,
+                          const Isometry3d& link_from_grasp) {
+  const InteractionTarget& target = *interaction.target;
+  if (target.pushes || !TurnsInPlace(interaction, link_from_grasp)) return link_from_grasp;
+  double tip = 0.0;
+  for (const Vector3d& point : hand.points) tip = std::max(tip, point.z());
+  const sim::ArticulatedBody& body = interaction.bodies[static_cast<size_t>(target.object)]->body();
+  return GraspOfOuterSection(body.links[static_cast<size_t>(target.link)].parts, link_from_grasp,
+                             tip);
+}
+
 }  // namespace
 
 std::vector<Isometry3d> WithProvedGrasps(const std::vector<Isometry3d>& approaches,
@@ -90,7 +119,8 @@ std::vector<Isometry3d> WithProvedGrasps(const std::vector<Isometry3d>& approach
 
 Isometry3d ChooseApproach(const robot::RobotModel& robot, const Interaction& interaction) {
   const SurfacePoints hand = GripperSurface(robot, kSpacing);
-  const std::vector<Isometry3d>& approaches = interaction.target->approaches;
+  std::vector<Isometry3d> approaches = interaction.target->approaches;
+  for (Isometry3d& approach : approaches) approach = OnOuterSection(interaction, hand, approach);
   Isometry3d best = approaches.front();
   Fit best_fit;
   for (size_t i = 0; i < approaches.size(); ++i) {

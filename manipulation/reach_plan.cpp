@@ -131,7 +131,7 @@ bool MovesJoint(const PlanningArm& context, const Interaction& interaction, task
     const Isometry3d next = GraspPose(interaction, state, across, candidate.pitch);
     across = next.linear().col(1);
     if (!follower->MoveTo(next, turned)) return false;
-    if (!requirements.clear || i % 3 != 2) continue;  // half-way and at the end
+    if (!requirements.clear) continue;
     const CollisionChecker clearance(context, interaction, state);
     if (!clearance.IsCollisionFree(follower->configuration(), Fingers::kIgnored)) return false;
   }
