@@ -24,6 +24,7 @@ constexpr double kAtRest = 0.005;    // m: the gripper is at the frame
 // m from the object to its destination, with the gripper at rest: too far to release it.
 constexpr double kSlid = 0.025;
 constexpr double kFromBelow = 0.5;   // of the tool's axis, upwards
+constexpr double kHasFallen = 0.7;   // of an object's upward axis, upwards
 constexpr int kRestUpdates = 4;      // updates
 constexpr int kOpeningUpdates = 10;  // updates that the gripper waits to open
 constexpr int kStuckUpdates = 10;    // updates without progress; fingers open in 8
@@ -160,6 +161,25 @@ void TargetFrame::UpdateGraspPoint(const tasks::WorldState& state) {
   updates_at_rest_ = 0;
 }
 
+// Returns the rotation that makes the object upright as it is described, about a horizontal axis. A
+// cup that hangs from its rim swings upright as it is set down. None for an object that has fallen.
+Eigen::Quaterniond TargetFrame::Uprighting(const tasks::WorldState& state) const {
+  const auto object = static_cast<size_t>(interaction_.target->object);
+  const Vector3d up = interaction_.start.roots[object].linear().transpose() * Vector3d::UnitZ();
+  const Vector3d now = state.roots[object].linear() * up;
+  if (now.z() < kHasFallen) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond::FromTwoVectors(now, Vector3d::UnitZ());
+}
+
+// Returns the tool's place (m, world) with the object at its destination, upright.
+Vector3d TargetFrame::PlaceAtDestination(const tasks::WorldState& state,
+                                         const Vector3d& grasp) const {
+  const Vector3d middle = tasks::LinkPosition(
+      interaction_.model, state, interaction_.target->object, interaction_.target->link);
+  return middle + DisplacementToDestination(interaction_, state) +
+         Uprighting(state) * (grasp - middle);
+}
+
 // Turns the frame with an object that is moved before it is held. An object that has fallen over is
 // not grasped from below: the frame then keeps its orientation.
 void TargetFrame::FollowGrasp(const tasks::WorldState& state) {
@@ -187,9 +207,8 @@ void TargetFrame::Follow(const tasks::WorldState& state) {
   }
   if (at_destination_) UpdateGraspPoint(state);
   if (grasp_ >= 0 && !at_destination_) FollowGrasp(state);
-  world_from_target_.translation() = state.roots[static_cast<size_t>(target.object)] * grasp_point_;
-  if (at_destination_)
-    world_from_target_.translation() += DisplacementToDestination(interaction_, state);
+  const Vector3d grasp = state.roots[static_cast<size_t>(target.object)] * grasp_point_;
+  world_from_target_.translation() = at_destination_ ? PlaceAtDestination(state, grasp) : grasp;
 }
 
 }  // namespace simwright::manipulation

@@ -47,6 +47,9 @@ class TargetFrame {
   void Follow(const tasks::WorldState& state);
   void FollowGrasp(const tasks::WorldState& state);
   void UpdateGraspPoint(const tasks::WorldState& state);
+  Eigen::Quaterniond Uprighting(const tasks::WorldState& state) const;
+  Eigen::Vector3d PlaceAtDestination(const tasks::WorldState& state,
+                                     const Eigen::Vector3d& grasp) const;
   bool Withdraws(const tasks::WorldState& state);
   void ComputeRetreat(const tasks::WorldState& state);
 
