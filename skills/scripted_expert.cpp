@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "manipulation/goal_displacement.h"
 #include "manipulation/joint_target.h"
@@ -33,6 +34,7 @@ constexpr double kClosed = 0.1;         // share of the commanded opening
 constexpr double kExpertLead = 0.06;    // m that a part is pulled ahead of itself
 constexpr double kHeldAhead = 0.03;     // m, for a grasped lid: faster, the fingers slide off
 constexpr double kGentleShare = 0.35;   // share of kAhead, for a door that is open enough
+constexpr double kAtStop = 0.01;        // m past the stop of a part that is pushed there
 constexpr double kHorizontal = 0.5;     // of a hinge's axis, upwards
 constexpr double kSpare = 0.015;        // m on each side of a lid's handle
 constexpr double kAheadShut = 0.08;     // m that a door is pushed ahead: it moves far
@@ -152,6 +154,19 @@ double OpenTo(double opening, double grip, const ExpertInput& input) {
   return std::min(grip, std::clamp(kGripGain * (share - input.commanded), -1.0, 1.0));
 }
 
+// Returns the way (m) that is left to a sliding part that is pushed back to its rest position,
+// where it stops; infinite for all others. Fingers that push on there slide off the handle.
+double WayToStop(const ExpertInput& input) {
+  const manipulation::InteractionTarget& target = *input.variant.target;
+  const auto object = static_cast<size_t>(target.object), j = static_cast<size_t>(target.joint);
+  const tasks::ObjectJoint& joint = input.variant.model.objects[object].joints[j];
+  const bool closes =
+      joint.type == reward::RewardJointType::kPrismatic &&
+      manipulation::JointTarget(joint, input.variant.start.joints[object][j]) == joint.rest();
+  return closes ? std::abs(input.state.joints[object][j] - joint.rest())
+                : std::numeric_limits<double>::infinity();
+}
+
 void ManipulatePart(const ExpertInput& input, float* action) {
   double grip = FingerCommand(input);
   if (grip > 0.0) {
@@ -167,7 +182,8 @@ void ManipulatePart(const ExpertInput& input, float* action) {
     const double gently = input.succeeding && IsShutLater(input) ? kGentleShare : 1.0;
     const double ahead =
         HasHorizontalHinge(input) && input.state.grasped ? kHeldAhead : kExpertLead;
-    SetCommand(gently * pull * ahead * direction, input.options.reach, action);
+    const double lead = std::min(gently * pull * ahead, WayToStop(input) + kAtStop);
+    SetCommand(lead * direction, input.options.reach, action);
     return;
   }
   const manipulation::InteractionTarget& target = *input.variant.target;
