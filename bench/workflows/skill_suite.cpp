@@ -21,10 +21,10 @@
 #define private public
 #include "skills/skill_world.h"
 #undef private
-#include "skills/skill_evaluation.h"
+#include "manipulation/target_frame.h"
 #include "skills/episode.h"
 #include "skills/scripted_expert.h"
-#include "manipulation/target_frame.h"
+#include "skills/skill_evaluation.h"
 #include "tasks/task_file.h"
 #include "workflows/skills/skill_rollout.h"
 #include "workflows/skills/skill_suite.h"
@@ -40,6 +40,8 @@ struct Arguments {
   bool train = false, ship = false, script = false, by_task = false;
   double minutes = 0.0;  // 0: the cell's own
   int instances = 0;     // 0: the cell's own
+  std::int64_t samples = 1'000'000'000;
+  double target = workflows::TrainRequest().target;
   std::int64_t imitated = workflows::TrainRequest().imitated_samples;
   int episodes = 300;
   double finger_friction = 0.0;  // of the evaluation; 0: the robot's own
@@ -116,23 +118,30 @@ void PrintFailures(const skills::Skill& skill, const skills::SkillEvaluation& ev
       const auto& root = e.start.state.roots[o];
       const Eigen::Vector3d at = v.subtask.start.world_from_robot.inverse() * root.translation();
       const double yaw = std::atan2(root.linear()(1, 0), root.linear()(0, 0));
-      std::printf("at %.2f %.2f yaw %.2f mass %.2f fr %.2f jt %.2f ff %.2f grasp %d rim %.2f wp %zu pitch %.2f ", at.x(), at.y(), yaw,
-                  e.start.mass[o], e.start.friction[o], e.start.joint[o],
-                  e.start.finger_friction.value_or(-1), e.start.grasp, v.target->rim, e.start.waypoints.size(), e.start.pitch);
+      std::printf(
+          "at %.2f %.2f yaw %.2f mass %.2f fr %.2f jt %.2f ff %.2f grasp %d rim %.2f wp %zu pitch "
+          "%.2f ",
+          at.x(), at.y(), yaw, e.start.mass[o], e.start.friction[o], e.start.joint[o],
+          e.start.finger_friction.value_or(-1), e.start.grasp, v.target->rim,
+          e.start.waypoints.size(), e.start.pitch);
       const bool planned = (e.start.grasp_configuration - skill.robot->home()).norm() > 1e-9;
       std::printf("%s ", planned ? "planned" : "NOPLAN");
       if (j >= 0) {
         const auto& jt = v.model.objects[o].joints[j];
-        std::printf("joint %.3f -> %.3f of [%.3f %.3f] ", e.start.state.joints[o][j], e.end.state.joints[o][j], jt.lower, jt.upper);
+        std::printf("joint %.3f -> %.3f of [%.3f %.3f] ", e.start.state.joints[o][j],
+                    e.end.state.joints[o][j], jt.lower, jt.upper);
       } else {
         const auto& r2 = e.end.state.roots[o];
         const double up = r2.linear().col(2).dot(root.linear().col(2));
         const Eigen::Vector3d d = r2.translation() - root.translation();
-        std::printf("moved %.3f %.3f %.3f tilt %.2f ", d.x(), d.y(), d.z(), std::acos(std::clamp(up, -1.0, 1.0)));
-        const Eigen::Vector3d g = e.start.state.goal - tasks::LinkPosition(v.model, e.end.state, o, 0);
+        std::printf("moved %.3f %.3f %.3f tilt %.2f ", d.x(), d.y(), d.z(),
+                    std::acos(std::clamp(up, -1.0, 1.0)));
+        const Eigen::Vector3d g =
+            e.start.state.goal - tasks::LinkPosition(v.model, e.end.state, o, 0);
         std::printf("goal-off %.3f %.3f %.3f ", g.x(), g.y(), g.z());
       }
-      std::printf("opening %.3f touched %d grasped %d", e.end.state.opening, e.end.state.touched, e.end.state.grasped);
+      std::printf("opening %.3f touched %d grasped %d", e.end.state.opening, e.end.state.touched,
+                  e.end.state.grasped);
     }
     std::printf("\n");
   }
@@ -164,24 +173,40 @@ skills::SkillEvaluation EvaluateUnseen(const workflows::SuiteCell& cell,
       skills::ExpertAction(ep, act.data());
       d = ep.Step(act.data());
       const Eigen::Isometry3d off = ep.frame().world_from_target().inverse() * ep.state().gripper;
-      Eigen::VectorXd q; ep.world().robot().Positions(&q);
-      std::printf("T %3d off %.3f %.3f %.3f ang %.2f open %.3f touch %d grasp %d wp %zu dest %d ", n++, off.translation().x(), off.translation().y(), off.translation().z(), Eigen::AngleAxisd(off.linear()).angle(), ep.state().opening, ep.state().touched, ep.state().grasped, ep.command().waypoints.size(), ep.frame().at_destination());
-      if (j >= 0) std::printf("joint %.3f ", ep.state().joints[o][j]);
-      else { const auto& r = ep.state().roots[o]; std::printf("obj %.3f %.3f %.3f up %.2f ", r.translation().x(), r.translation().y(), r.translation().z(), std::acos(std::min(1.0, r.linear()(2,2)))); }
-      std::printf("act %.2f %.2f %.2f %.2f %.2f %.2f %.2f q", act[0], act[1], act[2], act[3], act[4], act[5], act[6]);
+      Eigen::VectorXd q;
+      ep.world().robot().Positions(&q);
+      std::printf("T %3d off %.3f %.3f %.3f ang %.2f open %.3f touch %d grasp %d wp %zu dest %d ",
+                  n++, off.translation().x(), off.translation().y(), off.translation().z(),
+                  Eigen::AngleAxisd(off.linear()).angle(), ep.state().opening, ep.state().touched,
+                  ep.state().grasped, ep.command().waypoints.size(), ep.frame().at_destination());
+      if (j >= 0)
+        std::printf("joint %.3f ", ep.state().joints[o][j]);
+      else {
+        const auto& r = ep.state().roots[o];
+        std::printf("obj %.3f %.3f %.3f up %.2f ", r.translation().x(), r.translation().y(),
+                    r.translation().z(), std::acos(std::min(1.0, r.linear()(2, 2))));
+      }
+      std::printf("act %.2f %.2f %.2f %.2f %.2f %.2f %.2f q", act[0], act[1], act[2], act[3],
+                  act[4], act[5], act[6]);
       for (int k = 0; k < q.size(); ++k) std::printf(" %.2f", q[k]);
       std::printf(" goal");
       for (int k = 0; k < q.size(); ++k) std::printf(" %.2f", ep.command().goal[k]);
       std::printf("\n");
     }
     for (const sim::LinkContact& c : ep.world().world_.Contacts()) {
-      std::printf("T contact %d.%d %d.%d dist %.4f imp %.4f at %.3f %.3f %.3f n %.2f %.2f %.2f\n", c.body_a, c.link_a, c.body_b, c.link_b, c.distance, c.impulse, c.point.x(), c.point.y(), c.point.z(), c.normal.x(), c.normal.y(), c.normal.z());
+      std::printf("T contact %d.%d %d.%d dist %.4f imp %.4f at %.3f %.3f %.3f n %.2f %.2f %.2f\n",
+                  c.body_a, c.link_a, c.body_b, c.link_b, c.distance, c.impulse, c.point.x(),
+                  c.point.y(), c.point.z(), c.normal.x(), c.normal.y(), c.normal.z());
     }
-    std::printf("T tool %.3f %.3f %.3f\n", ep.state().gripper.translation().x(), ep.state().gripper.translation().y(), ep.state().gripper.translation().z());
+    std::printf("T tool %.3f %.3f %.3f\n", ep.state().gripper.translation().x(),
+                ep.state().gripper.translation().y(), ep.state().gripper.translation().z());
   }
   const skills::SkillEvaluation evaluation = known ? skills::Evaluate(skill, *known, starts)
                                                    : skills::EvaluateScriptedExpert(skill, starts);
-  if (arguments.by_task) {PrintFailures(skill, evaluation);PrintByTask(skill, evaluation);}
+  if (arguments.by_task) {
+    PrintFailures(skill, evaluation);
+    PrintByTask(skill, evaluation);
+  }
   return evaluation;
 }
 
@@ -210,8 +235,16 @@ std::string Settings(const Arguments& arguments) {
     std::snprintf(imitated, sizeof(imitated), " --imitate %lld",
                   static_cast<long long>(arguments.imitated));
   }
+  char samples[48] = "", target[32] = "";
+  if (arguments.samples != Arguments().samples) {
+    std::snprintf(samples, sizeof(samples), " --samples %lld",
+                  static_cast<long long>(arguments.samples));
+  }
+  if (arguments.target != Arguments().target) {
+    std::snprintf(target, sizeof(target), " --target %g", arguments.target);
+  }
   const bool other = arguments.action != skills::NameOf(workflows::TrainRequest().action);
-  return std::string(minutes) + instances + imitated +
+  return std::string(minutes) + samples + target + instances + imitated +
          (other ? " --action " + arguments.action : "");
 }
 
@@ -247,7 +280,8 @@ CellResult Train(const workflows::SuiteCell& cell, const Arguments& arguments,
   request.tasks = {"*"};
   request.output = arguments.output / ("run_" + cell.name + "_" + std::to_string(arguments.seed));
   request.minutes = arguments.minutes > 0.0 ? arguments.minutes : cell.minutes;
-  request.samples = 1'000'000'000;
+  request.samples = arguments.samples;
+  request.target = arguments.target;
   request.seed = arguments.seed;
   request.imitated_samples = arguments.imitated;
   request.action = skills::ActionSpaceOf(arguments.action);
@@ -323,6 +357,11 @@ int main(int argc, char** argv) {
   app.add_flag("--ship", arguments.ship, "Write policy, card and curves into models/skills");
   app.add_flag("--by-task", arguments.by_task, "Also print the success of each task");
   app.add_option("--minutes", arguments.minutes, "Training time; 0: the cell's own");
+  app.add_option("--samples", arguments.samples, "Training decisions, at most")
+      ->capture_default_str();
+  app.add_option("--target", arguments.target,
+                 "Lower bound of the success rate at which the training ends")
+      ->capture_default_str();
   app.add_option("--instances", arguments.instances,
                  "Training instances; 0: the cell's own number");
   app.add_option("--finger-friction", arguments.finger_friction,
