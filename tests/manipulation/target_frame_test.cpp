@@ -122,5 +122,31 @@ TEST(TargetFrame, WhatHasSlidInTheHandIsBroughtOn) {
       Vector3d(state.gripper.translation() + 0.5 * displacement), 1e-9));
 }
 
+// The floor turns a cup that hangs from its rim upright, about the fingers.
+TEST(TargetFrame, WhatHangsTiltedIsAtItsGoalOnceItStands) {
+  const auto skill = TargetFrameMake(PutAside());
+  const skills::SkillVariant& variant = skill->variants.front();
+  const auto cup = static_cast<size_t>(variant.target->object);
+  tasks::WorldState state = variant.start;
+  TargetFrame frame = FrameOf(variant, state);
+  ASSERT_TRUE(frame.at_destination());
+  const Vector3d fingers = state.roots[cup] * Vector3d(0.03, 0.0, 0.09);
+  const Eigen::AngleAxisd tilt(0.3, Vector3d(0.6, 0.8, 0.0));
+  const auto turned = [](const Eigen::AngleAxisd& turn, const Vector3d& about) {
+    return Eigen::Translation3d(about) * turn * Eigen::Translation3d(-about);
+  };
+  const Vector3d grasp =
+      variant.start.roots[cup].inverse() *
+      (frame.world_from_target().translation() - DisplacementToDestination(variant, variant.start));
+  state.roots[cup] = turned(tilt, fingers) * state.roots[cup];
+  frame.Update(state);
+  // The fingers go to the frame with the cup, which then turns about them.
+  const Vector3d held = state.roots[cup] * grasp;
+  const Vector3d there = frame.world_from_target().translation();
+  state.roots[cup].pretranslate(there - held);
+  state.roots[cup] = turned(tilt.inverse(), there) * state.roots[cup];
+  EXPECT_LT(DisplacementToDestination(variant, state).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace simwright::manipulation

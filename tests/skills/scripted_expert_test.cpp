@@ -61,6 +61,61 @@ SkillSubtask LiftLid() {
   return scene;
 }
 
+// Returns a subtask that shuts a drawer with a bar, which is open by 19 cm.
+SkillSubtask ShutDrawer() {
+  assets::SemanticModel chest;
+  chest.name = "chest";
+  assets::UrdfLink body = tasks::MakeLink("body", 5.0), drawer = tasks::MakeLink("drawer", 0.5);
+  body.collisions = {tasks::Block({0.3, 0.4, 0.1}, {0.15, 0.0, 0.05}),
+                     tasks::Block({0.3, 0.4, 0.1}, {0.15, 0.0, 0.35})};
+  drawer.collisions = {tasks::Block({0.02, 0.36, 0.18}, {-0.01, 0.0, 0.0}),
+                       tasks::Block({0.012, 0.12, 0.012}, {-0.05, 0.0, 0.0}),
+                       tasks::Block({0.03, 0.012, 0.012}, {-0.03, 0.05, 0.0}),
+                       tasks::Block({0.03, 0.012, 0.012}, {-0.03, -0.05, 0.0})};
+  chest.model.links = {body, drawer};
+  chest.model.joints = {tasks::MakeJoint("drawer_joint", "body", "drawer",
+                                         assets::JointType::kPrismatic, {0.0, 0.0, 0.2}, {-1, 0, 0},
+                                         0.0, 0.2)};
+  SkillSubtask scene;
+  scene.assets = {WithInertia(chest)};
+  scene.subtask.name = "close_chest_drawer";
+  scene.subtask.program =
+      "def compute_reward(env):\n"
+      "    open = env.get_state_by_joint_name(\"chest\", \"drawer_joint\")\n"
+      "    return -open, open <= 0.01\n";
+  tasks::AssetPlacement placement;
+  placement.asset = "chest";
+  placement.fixed = true;
+  placement.world_from_asset.translation() = Eigen::Vector3d(0.75, 0.0, 0.0);
+  scene.subtask.start.placements = {placement};
+  scene.subtask.start.joints = {{"chest", "drawer_joint", 0.19}};
+  return scene;
+}
+
+// Fingers that push on would slide off the handle, and pull the drawer open as they go back to it.
+TEST(ScriptedHand, StopsPushingADrawerThatIsShut) {
+  const auto skill = Evaluated(ShutDrawer());
+  Episode episode(*skill);
+  episode.Begin(SampleStarts(*skill, 1, 5).front());
+  std::vector<float> action(7);
+  Decision decision;
+  double lead_while_open = 0.0;  // m, the largest of the command
+  while (!decision.terminated && !decision.truncated) {
+    ExpertAction(episode, action.data());
+    const double lead = skill->options.reach * Eigen::Vector3f(action.data()).norm();
+    if (action[6] < 0.0f && episode.state().joints[0][0] > 0.05) {
+      lead_while_open = std::max(lead_while_open, lead);
+    }
+    decision = episode.Step(action.data());
+  }
+  EXPECT_TRUE(decision.terminated);
+  EXPECT_NEAR(lead_while_open, 0.06, 1e-6);
+  EXPECT_LT(episode.state().joints[0][0], 0.01);
+  ExpertAction(episode, action.data());
+  EXPECT_LE(skill->options.reach * Eigen::Vector3f(action.data()).norm(),
+            std::abs(episode.state().joints[0][0]) + 0.01 + 1e-6);
+}
+
 TEST(ScriptedHand, PicksACupUp) {
   const auto skill = Evaluated(PickUpCup());
   EXPECT_GE(EvaluateScriptedExpert(*skill, SampleStarts(*skill, 20, 5)).successes, 17);
