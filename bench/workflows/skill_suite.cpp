@@ -5,6 +5,7 @@
 //   bench_skill_suite --cell NAME --train [--ship]   trains a cell (all: one after the other)
 //   bench_skill_suite --on-seeds 301 9001            each cell on eight instances of either range
 // An interrupted training resumes; a finished cell is kept: remove its folder to repeat it.
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -15,6 +16,7 @@
 #include "core/parallel.h"
 #include "rl/policy_file.h"
 #include "rl/training.h"
+#include "rl/wilson_interval.h"
 #include "sim/articulated_world.h"
 #include "sim/driven_robot.h"
 #include "skills/episode_start.h"
@@ -306,22 +308,38 @@ CellResult Train(const workflows::SuiteCell& cell, const Arguments& arguments,
   return result;
 }
 
-// Evaluates the cell's shipped policy, or the expert, on each range of instances and prints a row
-// for each.
+void Print(const CellResult& result, core::Progress* progress) {
+  progress->Finish();
+  std::fputs(Row(result).c_str(), stdout);
+  std::fflush(stdout);
+}
+
+// Evaluates the cell's shipped policy, or the expert, on each range of instances; prints a row for
+// each and one for all.
 void EvaluateRanges(const workflows::SuiteCell& cell, const Arguments& arguments,
                     core::Progress* progress) {
   std::optional<fs::path> policy;
   if (!arguments.script) policy = workflows::ShippedPolicy(arguments.models, cell.name);
   if (policy && !fs::exists(*policy)) return;
+  CellResult all;
+  all.name = cell.name + " (all)";
+  double seconds = 0.0;  // of all successes
   for (const std::uint64_t first_seed : arguments.first_seeds) {
     CellResult result;
     result.name = cell.name;
     if (arguments.first_seeds.size() > 1) result.name += " " + std::to_string(first_seed);
     result.unseen = EvaluateUnseen(cell, policy, arguments, first_seed, progress);
-    progress->Finish();
-    std::fputs(Row(result).c_str(), stdout);
-    std::fflush(stdout);
+    Print(result, progress);
+    all.unseen.successes += result.unseen.successes;
+    all.unseen.episodes.insert(all.unseen.episodes.end(), result.unseen.episodes.begin(),
+                               result.unseen.episodes.end());
+    seconds += result.unseen.seconds * result.unseen.successes;
   }
+  if (arguments.first_seeds.size() == 1) return;
+  all.unseen.seconds = seconds / std::max(1, all.unseen.successes);
+  all.unseen.interval =
+      rl::WilsonInterval(all.unseen.successes, static_cast<int>(all.unseen.episodes.size()));
+  Print(all, progress);
 }
 
 void Run(const Arguments& arguments) {
@@ -332,10 +350,7 @@ void Run(const Arguments& arguments) {
       EvaluateRanges(cell, arguments, &progress);
       continue;
     }
-    const CellResult result = Train(cell, arguments, &progress);
-    progress.Finish();
-    std::fputs(Row(result).c_str(), stdout);
-    std::fflush(stdout);
+    Print(Train(cell, arguments, &progress), &progress);
   }
 }
 
