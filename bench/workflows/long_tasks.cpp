@@ -1,4 +1,4 @@
-// Compares task decomposition with end-to-end learning: three long tasks
+// Compares task decomposition with end-to-end learning: four long tasks
 // (workflows/tasks/long_tasks.h), each learned as a chain of subtasks, and undecomposed with as
 // many samples, by the reward of the task's goal and by the sum of its subtasks' rewards.
 //   bench_long_tasks --task cup_into_microwave --seed 1
@@ -34,6 +34,7 @@ struct Arguments {
   std::int64_t imitated = workflows::TrainRequest().imitated_samples;
   std::int64_t backward = workflows::TrainRequest().backward_samples;
   std::int64_t samples = 0;
+  std::int64_t chain_samples = 1'000'000'000;  // per subtask
   int episodes = 300;
   std::uint64_t seed = 1;
   fs::path output = "out/long_tasks";
@@ -182,7 +183,7 @@ void RunTask(const workflows::LongTask& task, const Arguments& arguments) {
   }
   workflows::TrainRequest request;
   request.episode_seconds = kSubtaskSeconds;
-  request.samples = 1'000'000'000;
+  request.samples = arguments.chain_samples;
   request.minutes = arguments.minutes;
   request.imitated_samples = arguments.imitated;
   request.backward_samples = arguments.backward;
@@ -212,7 +213,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--chain-action", arguments.chain_action, "Action space of the chain")
       ->capture_default_str();
-  app.add_option("--minutes", arguments.minutes, "Training time per subtask, at most")
+  app.add_option("--minutes", arguments.minutes, "Training time per subtask, at most; 0: unlimited")
       ->capture_default_str();
   app.add_flag("--script", arguments.script, "Only evaluate the scripted expert, without training");
   app.add_option("--imitate", arguments.imitated,
@@ -223,6 +224,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--samples", arguments.samples,
                  "Samples of the undecomposed task without a chain; 0: as many as the chain's")
+      ->capture_default_str();
+  app.add_option("--chain-samples", arguments.chain_samples,
+                 "Samples of each subtask of the chain, at most")
       ->capture_default_str();
   app.add_option("--episodes", arguments.episodes, "Episodes per evaluation")
       ->capture_default_str();
