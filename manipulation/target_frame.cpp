@@ -162,8 +162,10 @@ void TargetFrame::UpdateGraspPoint(const tasks::WorldState& state) {
 }
 
 // Returns the rotation that makes the object upright as it is described, about a horizontal axis. A
-// cup that hangs from its rim swings upright as it is set down. None for an object that has fallen.
+// cup that hangs from its rim swings upright as it is set down. None for an object that has fallen,
+// and in a side-opening receptacle, under whose ceiling a leaning gripper keeps it as it is.
 Eigen::Quaterniond TargetFrame::Uprighting(const tasks::WorldState& state) const {
+  if (interaction_.room) return Eigen::Quaterniond::Identity();
   const auto object = static_cast<size_t>(interaction_.target->object);
   const Vector3d up = interaction_.start.roots[object].linear().transpose() * Vector3d::UnitZ();
   const Vector3d now = state.roots[object].linear() * up;

@@ -340,7 +340,7 @@ TEST(SideReceptacle, AHandStaysWhereItHasLetGo) {
   frame.Update(state);
   const Vector3d held = frame.world_from_target().translation();
   state.grasped = false;
-  cup.rotate(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()));
+  cup.rotate(Eigen::AngleAxisd(0.5, Vector3d::UnitX()));
   frame.Update(state);
   EXPECT_EQ(frame.world_from_target().translation(), held);
   state.grasped = true;
