@@ -17,15 +17,6 @@
 #include "rl/policy_file.h"
 #include "rl/training.h"
 #include "rl/wilson_interval.h"
-#include "sim/articulated_world.h"
-#include "sim/driven_robot.h"
-#include "skills/episode_start.h"
-#define private public
-#include "skills/skill_world.h"
-#undef private
-#include "manipulation/target_frame.h"
-#include "skills/episode.h"
-#include "skills/scripted_expert.h"
 #include "skills/skill_evaluation.h"
 #include "tasks/task_file.h"
 #include "workflows/skills/skill_rollout.h"
@@ -108,47 +99,6 @@ void PrintByTask(const skills::Skill& skill, const skills::SkillEvaluation& eval
   }
 }
 
-void PrintFailures(const skills::Skill& skill, const skills::SkillEvaluation& evaluation) {
-  int i = -1;
-  for (const skills::EvaluatedEpisode& e : evaluation.episodes) {
-    ++i;
-    if (e.success) continue;
-    const skills::SkillVariant& v = skill.variants[static_cast<size_t>(e.start.variant)];
-    const int o = v.target ? v.target->object : -1, j = v.target ? v.target->joint : -1;
-    std::printf("F %d %s t=%.2f ", i, v.subtask.name.c_str(), e.seconds);
-    if (o >= 0) {
-      const auto& root = e.start.state.roots[o];
-      const Eigen::Vector3d at = v.subtask.start.world_from_robot.inverse() * root.translation();
-      const double yaw = std::atan2(root.linear()(1, 0), root.linear()(0, 0));
-      std::printf(
-          "at %.2f %.2f yaw %.2f mass %.2f fr %.2f jt %.2f ff %.2f grasp %d rim %.2f wp %zu pitch "
-          "%.2f ",
-          at.x(), at.y(), yaw, e.start.mass[o], e.start.friction[o], e.start.joint[o],
-          e.start.finger_friction.value_or(-1), e.start.grasp, v.target->rim,
-          e.start.waypoints.size(), e.start.pitch);
-      const bool planned = (e.start.grasp_configuration - skill.robot->home()).norm() > 1e-9;
-      std::printf("%s ", planned ? "planned" : "NOPLAN");
-      if (j >= 0) {
-        const auto& jt = v.model.objects[o].joints[j];
-        std::printf("joint %.3f -> %.3f of [%.3f %.3f] ", e.start.state.joints[o][j],
-                    e.end.state.joints[o][j], jt.lower, jt.upper);
-      } else {
-        const auto& r2 = e.end.state.roots[o];
-        const double up = r2.linear().col(2).dot(root.linear().col(2));
-        const Eigen::Vector3d d = r2.translation() - root.translation();
-        std::printf("moved %.3f %.3f %.3f tilt %.2f ", d.x(), d.y(), d.z(),
-                    std::acos(std::clamp(up, -1.0, 1.0)));
-        const Eigen::Vector3d g =
-            e.start.state.goal - tasks::LinkPosition(v.model, e.end.state, o, 0);
-        std::printf("goal-off %.3f %.3f %.3f ", g.x(), g.y(), g.z());
-      }
-      std::printf("opening %.3f touched %d grasped %d", e.end.state.opening, e.end.state.touched,
-                  e.end.state.grasped);
-    }
-    std::printf("\n");
-  }
-}
-
 // Evaluates a policy file, or the scripted expert.
 skills::SkillEvaluation EvaluateUnseen(const workflows::SuiteCell& cell,
                                        const std::optional<fs::path>& policy,
@@ -162,53 +112,9 @@ skills::SkillEvaluation EvaluateUnseen(const workflows::SuiteCell& cell,
   const skills::Skill& skill = *skills.front().evaluated;
   progress->Stage("evaluate " + cell.name);
   const auto starts = skills::SampleStarts(skill, arguments.episodes, 7000 + arguments.seed);
-  if (const char* trace = std::getenv("SIM_TRACE")) {
-    const int i = std::atoi(trace);
-    skills::Episode ep(skill);
-    ep.Begin(starts[i]);
-    const skills::SkillVariant& v = skill.variants[static_cast<size_t>(starts[i].variant)];
-    const int o = v.target->object, j = v.target->joint;
-    std::vector<float> act(7);
-    skills::Decision d;
-    int n = 0;
-    while (!d.terminated && !d.truncated) {
-      skills::ExpertAction(ep, act.data());
-      d = ep.Step(act.data());
-      const Eigen::Isometry3d off = ep.frame().world_from_target().inverse() * ep.state().gripper;
-      Eigen::VectorXd q;
-      ep.world().robot().Positions(&q);
-      std::printf("T %3d off %.3f %.3f %.3f ang %.2f open %.3f touch %d grasp %d wp %zu dest %d ",
-                  n++, off.translation().x(), off.translation().y(), off.translation().z(),
-                  Eigen::AngleAxisd(off.linear()).angle(), ep.state().opening, ep.state().touched,
-                  ep.state().grasped, ep.command().waypoints.size(), ep.frame().at_destination());
-      if (j >= 0)
-        std::printf("joint %.3f ", ep.state().joints[o][j]);
-      else {
-        const auto& r = ep.state().roots[o];
-        std::printf("obj %.3f %.3f %.3f up %.2f ", r.translation().x(), r.translation().y(),
-                    r.translation().z(), std::acos(std::min(1.0, r.linear()(2, 2))));
-      }
-      std::printf("act %.2f %.2f %.2f %.2f %.2f %.2f %.2f q", act[0], act[1], act[2], act[3],
-                  act[4], act[5], act[6]);
-      for (int k = 0; k < q.size(); ++k) std::printf(" %.2f", q[k]);
-      std::printf(" goal");
-      for (int k = 0; k < q.size(); ++k) std::printf(" %.2f", ep.command().goal[k]);
-      std::printf("\n");
-    }
-    for (const sim::LinkContact& c : ep.world().world_.Contacts()) {
-      std::printf("T contact %d.%d %d.%d dist %.4f imp %.4f at %.3f %.3f %.3f n %.2f %.2f %.2f\n",
-                  c.body_a, c.link_a, c.body_b, c.link_b, c.distance, c.impulse, c.point.x(),
-                  c.point.y(), c.point.z(), c.normal.x(), c.normal.y(), c.normal.z());
-    }
-    std::printf("T tool %.3f %.3f %.3f\n", ep.state().gripper.translation().x(),
-                ep.state().gripper.translation().y(), ep.state().gripper.translation().z());
-  }
   const skills::SkillEvaluation evaluation = known ? skills::Evaluate(skill, *known, starts)
                                                    : skills::EvaluateScriptedExpert(skill, starts);
-  if (arguments.by_task) {
-    PrintFailures(skill, evaluation);
-    PrintByTask(skill, evaluation);
-  }
+  if (arguments.by_task) PrintByTask(skill, evaluation);
   return evaluation;
 }
 
