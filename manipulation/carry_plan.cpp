@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "manipulation/collision_checker.h"
+#include "manipulation/gripper_penetration.h"
 #include "manipulation/ik_solutions.h"
 #include "manipulation/rrt_connect.h"
 #include "manipulation/tool_path.h"
@@ -16,6 +17,9 @@ using Eigen::Vector3d;
 
 constexpr double kCarryTurns[] = {0.0,         0.25 * M_PI, -0.25 * M_PI, 0.5 * M_PI,
                                   -0.5 * M_PI, 0.75 * M_PI, -0.75 * M_PI, M_PI};  // rad
+constexpr double kPayloadSpacing = 0.016;  // m: twice the thickness of thin boards
+// m of arm and payload to objects: the payload swings in the fingers.
+constexpr double kCarryClearance = 0.02;
 // The number of arrivals for which RRT-Connect is tried if no simple path exists: it is slow.
 constexpr size_t kMostSearches = 3;
 
@@ -46,35 +50,34 @@ std::vector<Arrival> ArrivalsAt(const PlanningArm& context, const Interaction& i
   return arrivals;
 }
 
-// Returns the convex hull points of the grasped object, in the tool's frame.
+// Returns points on the grasped object, in the tool's frame.
 SurfacePoints PayloadPoints(const Interaction& interaction, const tasks::WorldState& state) {
   const auto object = static_cast<size_t>(interaction.target->object);
-  const std::vector<Isometry3d> links =
+  std::vector<Isometry3d> links =
       tasks::LinkPosesOf(interaction.model.objects[object], state.joints[object]);
-  const Isometry3d tool_from_object = state.gripper.inverse() * state.roots[object];
-  std::vector<Vector3d> points;
-  for (size_t l = 0; l < links.size(); ++l) {
-    for (const Vector3d& point : interaction.model.objects[object].links[l].extreme_points) {
-      points.push_back(tool_from_object * links[l] * point);
-    }
-  }
-  return SurfacePoints(std::move(points));
+  for (Isometry3d& link : links) link = state.gripper.inverse() * state.roots[object] * link;
+  return BodySurface(interaction.bodies[object]->body(), links, kPayloadSpacing);
 }
 
-}  // namespace
-
-std::optional<CarryPlan> PlanCarry(const PlanningArm& context, const Interaction& interaction,
-                                   const tasks::WorldState& state, const CarryTask& task,
-                                   const robot::JointVector& from) {
+// Returns the best plan with a clearance of `margin` (m). `any` receives a plan without a path if
+// it has none yet.
+std::optional<CarryPlan> PlanWithMargin(const PlanningArm& context, const Interaction& interaction,
+                                        const tasks::WorldState& state, const CarryTask& task,
+                                        const robot::JointVector& from, double margin,
+                                        std::optional<CarryPlan>* any) {
   CollisionChecker clearance(context, interaction, state, interaction.target->object);
   clearance.SetPayload(PayloadPoints(interaction, state));
-  std::optional<CarryPlan> any, by_waypoints;
+  std::optional<CarryPlan> by_waypoints;
   std::vector<CarryPlan> blocked;  // not reachable by simple waypoints
+  const auto stay_clear = [&](const CarryPlan& plan) {
+    if (margin > 0.0) clearance.SetClearance(margin, {from, plan.arrival});
+  };
   for (const double turn : kCarryTurns) {
     if (turn != 0.0 && !task.may_turn) break;
     for (const Arrival& arrival : ArrivalsAt(context, interaction, task, turn, from)) {
-      if (!any) any = arrival.plan;
+      if (!*any) *any = arrival.plan;
       if (!clearance.IsCollisionFree(arrival.there)) continue;
+      stay_clear(arrival.plan);
       const auto path = PlanSimplePath(context, clearance, from, arrival.plan.arrival);
       if (path && path->empty()) return arrival.plan;
       if (!path && blocked.size() < kMostSearches &&
@@ -88,10 +91,25 @@ std::optional<CarryPlan> PlanCarry(const PlanningArm& context, const Interaction
   }
   if (by_waypoints) return by_waypoints;
   for (CarryPlan& plan : blocked) {
+    stay_clear(plan);
     const auto path = PlanRrtConnect(context.robot->arm, clearance, from, plan.arrival);
     if (!path) continue;
     plan.waypoints = *path;
     return plan;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<CarryPlan> PlanCarry(const PlanningArm& context, const Interaction& interaction,
+                                   const tasks::WorldState& state, const CarryTask& task,
+                                   const robot::JointVector& from) {
+  std::optional<CarryPlan> any;
+  for (const double margin : {kCarryClearance, 0.0}) {
+    if (auto plan = PlanWithMargin(context, interaction, state, task, from, margin, &any)) {
+      return plan;
+    }
   }
   return any;
 }

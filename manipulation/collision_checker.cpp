@@ -98,11 +98,12 @@ bool CollisionChecker::IsClearOf(const Obstacles& obstacles, const robot::JointV
   return true;
 }
 
-bool CollisionChecker::IsLoadClear(const robot::JointVector& arm) const {
+bool CollisionChecker::IsLoadClearOf(const Obstacles& obstacles,
+                                     const robot::JointVector& arm) const {
   if (carried_.points.empty()) return true;
   const Eigen::Isometry3d tool =
       world_from_robot_ * robot::ForwardKinematics(context_.robot->arm, arm);
-  return !IntersectsFloor(carried_, tool) && !IntersectsAny(carried_, tool, obstacles_);
+  return !IntersectsFloor(carried_, tool) && !IntersectsAny(carried_, tool, obstacles);
 }
 
 bool CollisionChecker::IsPathCollisionFree(const robot::JointVector& from,
@@ -116,7 +117,7 @@ bool CollisionChecker::IsPathCollisionFree(const robot::JointVector& from,
       return (end - at).template lpNorm<Eigen::Infinity>() < kNearEnd;
     });
     const Obstacles& obstacles = near_end || inflated_.empty() ? obstacles_ : inflated_;
-    if (!IsClearOf(obstacles, at, Fingers::kCount) || !IsLoadClear(at)) return false;
+    if (!IsClearOf(obstacles, at, Fingers::kCount) || !IsLoadClearOf(obstacles, at)) return false;
   }
   return true;
 }

@@ -33,9 +33,9 @@ class CollisionChecker : public PathChecker {
   // Sets the surface points (m, tool frame) of the payload, which IsPathCollisionFree also checks
   // from then on. Initially there is no payload.
   void SetPayload(SurfacePoints carried) { carried_ = std::move(carried); }
-  // Makes IsPathCollisionFree require a clearance of `margin` (m) to objects, except within 0.3 rad
-  // (or m) of the configurations `ends` (J each), which may be near objects: objects beside the
-  // path may move when touched, and the arm lags behind its command.
+  // Makes IsPathCollisionFree require a clearance of `margin` (m) of arm and payload to objects,
+  // except within 0.3 rad (or m) of the configurations `ends` (J each), which may be near objects:
+  // objects beside the path may move when touched, and the arm lags behind its command.
   void SetClearance(double margin, std::vector<robot::JointVector> ends);
   // Returns true if the arm and its payload are collision-free along the straight joint-space
   // segment between two configurations (J), and at the second one.
@@ -50,7 +50,7 @@ class CollisionChecker : public PathChecker {
   using Obstacles = std::vector<Obstacle>;
 
   bool IsClearOf(const Obstacles& obstacles, const robot::JointVector& arm, Fingers fingers) const;
-  bool IsLoadClear(const robot::JointVector& arm) const;
+  bool IsLoadClearOf(const Obstacles& obstacles, const robot::JointVector& arm) const;
 
   const PlanningArm& context_;
   const Eigen::Isometry3d& world_from_robot_;

@@ -93,6 +93,17 @@ std::vector<Isometry3d> WorldLinkPoses(const tasks::ArticulatedObject& object,
   return poses;
 }
 
+SurfacePoints BodySurface(const sim::ArticulatedBody& body,
+                          const std::vector<Isometry3d>& frame_from_links, double spacing) {
+  std::vector<Vector3d> points;
+  for (size_t l = 0; l < body.links.size(); ++l) {
+    for (const core::TriangleMesh& part : body.links[l].parts) {
+      AddSurface(part, frame_from_links[l], 0.5 * spacing, &points);
+    }
+  }
+  return SurfacePoints(Thinned(points, 0.5 * spacing));
+}
+
 std::vector<SurfacePoints> RobotSurface(const robot::RobotModel& robot, double spacing) {
   std::vector<SurfacePoints> surface;
   for (const assets::UrdfLink& link : robot.urdf.links) {

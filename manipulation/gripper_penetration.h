@@ -35,6 +35,11 @@ std::vector<Eigen::Isometry3d> WorldLinkPoses(const tasks::ArticulatedObject& ob
                                               const Eigen::Isometry3d& root,
                                               const std::vector<double>& joints);
 
+// Samples points on the surfaces of a body's links, m, in the frame of `frame_from_links` (links),
+// about `spacing` (m) apart.
+SurfacePoints BodySurface(const sim::ArticulatedBody& body,
+                          const std::vector<Eigen::Isometry3d>& frame_from_links, double spacing);
+
 // Samples points on the surface of each of a robot's links, m, link frame. (urdf.links)
 std::vector<SurfacePoints> RobotSurface(const robot::RobotModel& robot, double spacing);
 
