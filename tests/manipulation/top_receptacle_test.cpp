@@ -166,8 +166,16 @@ TEST(CarryPlan, ArrivesAboveTheDrawerInNothing) {
                             robot::ForwardKinematics(skill->robot->arm, plan->arrival);
     EXPECT_LT((tool.translation() - before.translation()).norm(), 2e-3);
     EXPECT_LT(Eigen::AngleAxisd(tool.linear().transpose() * before.linear()).angle(), 0.02);
-    clear += CollisionChecker(*skill, variant, start.state, 1)
-                 .IsPathCollisionFree(start.arm, plan->arrival);
+    const CollisionChecker checker(*skill, variant, start.state, 1);
+    bool path_clear = true;
+    robot::JointVector from = start.arm;
+    JointPath path = plan->waypoints;
+    path.push_back(plan->arrival);
+    for (const robot::JointVector& to : path) {
+      path_clear = path_clear && checker.IsPathCollisionFree(from, to);
+      from = to;
+    }
+    clear += path_clear;
   }
   EXPECT_GE(planned, 10);
   EXPECT_GE(clear, 8);
