@@ -1,6 +1,7 @@
 #include "sim/articulated_world.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -19,6 +20,7 @@
 #include "sim/joint_velocity_constraint.h"
 #include "sim/link_setup.h"
 #include "sim/link_tree.h"
+#include "sim/tree_dynamics.h"
 
 namespace simwright::sim {
 namespace {
@@ -30,6 +32,8 @@ constexpr int kFloorUserIndex = -1;  // Bullet's own default for unnumbered bodi
 // the default of 2 cm a closing oven door was blocked by a point that it had already passed.
 constexpr double kContactReach = 0.002;
 
+constexpr double kUnboundedForce = std::numeric_limits<float>::max();
+
 double FrictionOf(const RigidBody& link, int index, const Placement& placement) {
   for (const auto& [given, friction] : placement.link_friction) {
     if (given == index) return placement.friction_scale * friction;
@@ -37,10 +41,13 @@ double FrictionOf(const RigidBody& link, int index, const Placement& placement) 
   return placement.friction_scale * link.friction;
 }
 
-// The constraints of one movable joint.
 struct LoadedJoint {
+  bool moves = false;
   double friction = 0.0;
-  std::unique_ptr<JointVelocityConstraint> motor;  // with friction and damping
+  JointMotor drive;                     // with friction and damping
+  double gear_force = kUnboundedForce;  // of a mimic joint, N m or N at most
+  // The constraints for Bullet's own solver.
+  std::unique_ptr<JointVelocityConstraint> motor;
   std::unique_ptr<btMultiBodyJointLimitConstraint> limit;
   std::unique_ptr<btMultiBodyGearConstraint> gear;  // to the leader of a mimic joint
 };
@@ -52,6 +59,13 @@ struct Offset {
   btTransform carrier_from_collider;
 };
 
+btTransform PoseOf(const TreeDynamics& dynamics, int link) {
+  const Eigen::Matrix3d& r = dynamics.Rotation(link);
+  return btTransform(
+      btMatrix3x3(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)),
+      ToBullet(dynamics.Center(link)));
+}
+
 struct LoadedTree {
   std::shared_ptr<const PreparedBody> prepared;
   const LinkTree* tree = nullptr;
@@ -60,6 +74,7 @@ struct LoadedTree {
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
   std::vector<LoadedJoint> joints;
   std::unique_ptr<btMultiBody> multi;
+  std::unique_ptr<TreeDynamics> dynamics;  // for CompactSolver
 
   const BulletShape& Shape(int link) const {
     return *shapes_by_link->at(static_cast<size_t>(link));
@@ -69,6 +84,17 @@ struct LoadedTree {
   }
   // Returns Bullet's index of the child link of joint `joint`.
   int Joint(int joint) const { return tree->links.at(static_cast<size_t>(joint) + 1).bullet; }
+  // Moves all colliders to the poses of `dynamics`; returns false if these have not changed.
+  bool FollowDynamics() {
+    if (!dynamics->UpdatePoses()) return false;
+    for (size_t i = 0; i < colliders.size(); ++i) {
+      if (!colliders[i]) continue;
+      const TreeLink& place = tree->links[i];
+      colliders[i]->setWorldTransform(PoseOf(*dynamics, place.bullet));
+    }
+    PlaceColliders();
+    return true;
+  }
   // Bullet moves a link's collider to the link's frame.
   void PlaceColliders() {
     for (const Offset& offset : offsets) {
@@ -112,13 +138,8 @@ btDefaultCollisionConstructionInfo Pools() {
 }  // namespace
 
 struct ArticulatedWorld::Bullet {
-  explicit Bullet(bool compact) {
-    if (compact) {
-      solver = MakeCompactSolver();
-    } else {
-      solver = std::make_unique<btMultiBodyConstraintSolver>();
-    }
-    world = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, solver.get(),
+  explicit Bullet(bool use_compact) : compact(use_compact) {
+    world = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, &solver,
                                                        &configuration);
   }
 
@@ -126,7 +147,9 @@ struct ArticulatedWorld::Bullet {
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
   ExclusionFilter exclusion;  // used once a body excludes a pair
-  std::unique_ptr<btMultiBodyConstraintSolver> solver;
+  bool compact;
+  CompactSolver compact_solver;        // if so
+  btMultiBodyConstraintSolver solver;  // else
   std::unique_ptr<btMultiBodyDynamicsWorld> world;
   btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
   std::unique_ptr<btRigidBody> floor;
@@ -153,10 +176,17 @@ struct ArticulatedWorld::Bullet {
 
   void AddColliders(const ArticulatedBody& body, const Placement& placement, LoadedTree* loaded);
   void AddJoints(const ArticulatedBody& body, double scale, LoadedTree* loaded);
+  void AddBulletConstraints(const assets::Joint& joint, int link, LoadedTree* loaded,
+                            LoadedJoint* entry);
+  void Step(double dt);
   void UpdatePoses(LoadedTree* loaded) {
-    loaded->multi->forwardKinematics(scratch_turns, scratch_origins);
-    loaded->multi->updateCollisionObjectWorldTransforms(scratch_turns, scratch_origins);
-    loaded->PlaceColliders();
+    if (compact) {
+      if (!loaded->FollowDynamics()) return;
+    } else {
+      loaded->multi->forwardKinematics(scratch_turns, scratch_origins);
+      loaded->multi->updateCollisionObjectWorldTransforms(scratch_turns, scratch_origins);
+      loaded->PlaceColliders();
+    }
     for (const auto& collider : loaded->colliders) {
       if (collider) world->updateSingleAabb(collider.get());
     }
@@ -212,22 +242,57 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double sca
   for (const int i : body.kinematics->moving_joints()) {
     const assets::Joint& joint = body.joints()[static_cast<size_t>(i)];
     LoadedJoint& entry = loaded->joints[static_cast<size_t>(i)];
-    const int link = loaded->Joint(i);
+    entry.moves = true;
     entry.friction = scale * joint.friction;
-    entry.motor =
-        std::make_unique<JointVelocityConstraint>(loaded->multi.get(), link, scale * joint.damping);
-    entry.motor->SetTarget(0.0, -entry.friction, entry.friction);
-    world->addMultiBodyConstraint(entry.motor->constraint());
-    if (joint.mimic) {
-      entry.gear =
-          GearTo(*joint.mimic, loaded->Joint(body.kinematics->JointIndex(joint.mimic->joint)), link,
-                 loaded->multi.get());
-      world->addMultiBodyConstraint(entry.gear.get());
+    entry.drive = {0.0, -entry.friction, entry.friction, scale * joint.damping};
+    const int leader =
+        joint.mimic ? loaded->Joint(body.kinematics->JointIndex(joint.mimic->joint)) : -1;
+    const int link = loaded->Joint(i);
+    if (compact) {
+      const bool limited = joint.type != assets::JointType::kContinuous;
+      SolverJoint solved{link, &entry.drive, limited, joint.lower, joint.upper, leader};
+      if (joint.mimic) {
+        solved.multiplier = joint.mimic->multiplier;
+        solved.offset = joint.mimic->offset;
+        solved.gear_force = &entry.gear_force;
+      }
+      compact_solver.AddJoint(static_cast<int>(bodies.size()), solved);
+      continue;
     }
-    if (joint.type == assets::JointType::kContinuous) continue;
-    entry.limit = std::make_unique<btMultiBodyJointLimitConstraint>(loaded->multi.get(), link,
-                                                                    joint.lower, joint.upper);
-    world->addMultiBodyConstraint(entry.limit.get());
+    if (joint.mimic) entry.gear = GearTo(*joint.mimic, leader, link, loaded->multi.get());
+    AddBulletConstraints(joint, link, loaded, &entry);
+  }
+}
+
+void ArticulatedWorld::Bullet::AddBulletConstraints(const assets::Joint& joint, int link,
+                                                    LoadedTree* loaded, LoadedJoint* entry) {
+  btMultiBody* multi = loaded->multi.get();
+  entry->motor = std::make_unique<JointVelocityConstraint>(multi, link, &entry->drive);
+  world->addMultiBodyConstraint(entry->motor->constraint());
+  if (entry->gear) world->addMultiBodyConstraint(entry->gear.get());
+  if (joint.type == assets::JointType::kContinuous) return;
+  entry->limit =
+      std::make_unique<btMultiBodyJointLimitConstraint>(multi, link, joint.lower, joint.upper);
+  world->addMultiBodyConstraint(entry->limit.get());
+}
+
+// Bullet finds the contacts in both cases.
+void ArticulatedWorld::Bullet::Step(double dt) {
+  if (!compact) {
+    world->stepSimulation(dt, 0, dt);
+    for (const auto& body : bodies) body->PlaceColliders();
+  } else {
+    btDispatcherInfo& info = world->getDispatchInfo();
+    info.m_timeStep = dt;
+    info.m_stepCount = 0;
+    world->computeOverlappingPairs();
+    dispatcher.dispatchAllCollisionPairs(broadphase.getOverlappingPairCache(), info, &dispatcher);
+    compact_solver.Step(dt, world->getSolverInfo().m_numIterations, FromBullet(world->getGravity()),
+                        &dispatcher);
+    for (const auto& body : bodies) UpdatePoses(body.get());
+  }
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    dispatcher.getManifoldByIndexInternal(i)->setContactBreakingThreshold(kContactReach);
   }
 }
 
@@ -300,6 +365,10 @@ int ArticulatedWorld::Add(std::shared_ptr<const PreparedBody> prepared,
   loaded->multi->setLinearDamping(0.0);
   loaded->multi->setAngularDamping(0.0);
   bullet_->world->addMultiBody(loaded->multi.get());
+  if (bullet_->compact) {
+    loaded->dynamics = std::make_unique<TreeDynamics>(loaded->multi.get());
+    bullet_->compact_solver.AddTree(loaded->dynamics.get());
+  }
   bullet_->AddColliders(body, placement, loaded.get());
   bullet_->AddJoints(body, placement.joint_scale, loaded.get());
   bullet_->UpdatePoses(loaded.get());
@@ -340,28 +409,30 @@ void ArticulatedWorld::SetGravity(const Eigen::Vector3d& gravity) {
 
 void ArticulatedWorld::Drive(int body, int joint, double velocity, double max_force) {
   LoadedJoint& entry = bullet_->Body(body).joints.at(static_cast<size_t>(joint));
-  if (!entry.motor) throw core::Error("a fixed joint cannot be driven");
+  if (!entry.moves) throw core::Error("a fixed joint cannot be driven");
   const double friction = entry.friction;
   const double spare = max_force - friction;
+  JointMotor& drive = entry.drive;
   // Friction takes its share of the force along the motion, and adds to it when braking.
   if (velocity == 0.0 || spare <= 0.0) {
     const double hold = velocity == 0.0 ? max_force + friction : friction;
-    entry.motor->SetTarget(0.0, -hold, hold);
+    drive = {0.0, -hold, hold, drive.damping};
   } else if (velocity > 0.0) {
-    entry.motor->SetTarget(velocity, -max_force - friction, spare);
+    drive = {velocity, -max_force - friction, spare, drive.damping};
   } else {
-    entry.motor->SetTarget(velocity, -spare, max_force + friction);
+    drive = {velocity, -spare, max_force + friction, drive.damping};
   }
 }
 
 void ArticulatedWorld::Release(int body, int joint) {
   LoadedJoint& entry = bullet_->Body(body).joints.at(static_cast<size_t>(joint));
-  if (entry.motor) entry.motor->SetTarget(0.0, -entry.friction, entry.friction);
+  entry.drive = {0.0, -entry.friction, entry.friction, entry.drive.damping};
 }
 
 void ArticulatedWorld::LimitMimic(int body, int joint, double max_force) {
   LoadedJoint& entry =
       bullet_->bodies[static_cast<size_t>(body)]->joints[static_cast<size_t>(joint)];
+  entry.gear_force = max_force;
   if (entry.gear) entry.gear->setMaxAppliedImpulse(max_force * options_.time_step);
 }
 
@@ -380,11 +451,7 @@ void ArticulatedWorld::SetIterations(int iterations) {
 }
 
 void ArticulatedWorld::Step() {
-  bullet_->world->stepSimulation(options_.time_step, 0, options_.time_step);
-  for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
-    bullet_->dispatcher.getManifoldByIndexInternal(i)->setContactBreakingThreshold(kContactReach);
-  }
-  for (const auto& body : bullet_->bodies) body->PlaceColliders();
+  bullet_->Step(options_.time_step);
   time_ += options_.time_step;
 }
 

@@ -1,5 +1,5 @@
 // Measures the speed of training worlds: the Panda, a microwave with its door and knobs, a cup.
-//   bench_environment_speed [--repeats N]
+//   bench_environment_speed [--repeats N] [--part memory|physics|environments|learning]
 // Control steps (60 Hz, 4 substeps) per second of 64 environments on one and two threads, with
 // random actions as an untrained policy samples them, and with the gripper closed on the door's
 // handle; with PPO and the default networks; the effect of each setting; resident memory; and
@@ -283,12 +283,15 @@ void MeasurePhysics(const skills::SkillSubtask& scene, int repeats) {
 
 int main(int argc, char** argv) {
   int repeats = 5;
+  std::string part;  // empty: all
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::string(argv[i]) == "--repeats") repeats = std::atoi(argv[i + 1]);
+    if (std::string(argv[i]) == "--part") part = argv[i + 1];
   }
+  const auto chosen = [&](const char* name) { return part.empty() || part == name; };
   const simwright::skills::SkillSubtask scene = simwright::MicrowaveAndCup();
-  simwright::MeasureMemory(scene);
-  simwright::MeasurePhysics(scene, repeats);
-  simwright::MeasureEnvironments(scene, repeats);
-  simwright::MeasurePpo(scene, repeats);
+  if (chosen("memory")) simwright::MeasureMemory(scene);
+  if (chosen("physics")) simwright::MeasurePhysics(scene, repeats);
+  if (chosen("environments")) simwright::MeasureEnvironments(scene, repeats);
+  if (chosen("learning")) simwright::MeasurePpo(scene, repeats);
 }

@@ -34,7 +34,7 @@ struct Scene {
   }
   static WorldOptions Options(bool compact) {
     WorldOptions options;
-    options.solver_iterations = 20;
+    options.solver_iterations = 400;
     options.compact_solver = compact;
     return options;
   }
