@@ -141,12 +141,13 @@ struct ArticulatedWorld::Bullet {
   explicit Bullet(bool use_compact) : compact(use_compact) {
     world = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, &solver,
                                                        &configuration);
+    broadphase.getOverlappingPairCache()->setOverlapFilterCallback(exclusion.callback());
   }
 
   btDefaultCollisionConfiguration configuration{Pools()};
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-  ExclusionFilter exclusion;  // used once a body excludes a pair
+  ExclusionFilter exclusion;
   bool compact;
   CompactSolver compact_solver;        // if so
   btMultiBodyConstraintSolver solver;  // else
@@ -195,9 +196,8 @@ struct ArticulatedWorld::Bullet {
 
 void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const Placement& placement,
                                             LoadedTree* loaded) {
-  if (placement.self_contacts && !body.kinematics->excluded_pairs().empty()) {
-    exclusion.Exclude(static_cast<int>(bodies.size()), body.kinematics->excluded_pairs());
-    broadphase.getOverlappingPairCache()->setOverlapFilterCallback(exclusion.callback());
+  if (placement.self_contacts) {
+    exclusion.AllowSelfContacts(static_cast<int>(bodies.size()), body.kinematics->excluded_pairs());
   }
   for (size_t i = 0; i < body.links.size(); ++i) {
     const RigidBody& link = body.links[i];

@@ -130,7 +130,7 @@ void CompactSolver::AddGear(double dt, TreeDynamics* dynamics, SolverJoint* join
   }
   ConstraintRow row;
   row.a = {jacobian, dynamics->velocity(), response, dynamics->velocity(), stride, stride};
-  const double mobility = Speed(jacobian, response, stride);
+  const double mobility = Product(jacobian, response, stride);
   row.inertia = mobility > std::numeric_limits<double>::epsilon() ? 1.0 / mobility : 0.0;
   const double error = joint->offset + joint->multiplier * dynamics->JointPosition(joint->leader) -
                        dynamics->JointPosition(joint->link);
@@ -145,7 +145,7 @@ void CompactSolver::AddGear(double dt, TreeDynamics* dynamics, SolverJoint* join
 void CompactSolver::WarmStart() {
   for (const JointRow& row : joints_) {
     const double impulse = row.sign * row.impulse;
-    for (int i = 0; i < row.count; ++i) row.changed[i] += impulse * row.response[i];
+    AddScaled(impulse, row.response, row.count, row.changed);
   }
   for (const auto* rows : {&gears_, &normals_}) {
     for (const ConstraintRow& row : *rows) {
@@ -165,7 +165,7 @@ __attribute__((target_clones("avx2", "default"))) void CompactSolver::Iterate(in
                 row->lower, row->upper);
     const double change = row->sign * (impulse - row->impulse);
     row->impulse = impulse;
-    for (int i = 0; i < row->count; ++i) row->changed[i] += change * row->response[i];
+    AddScaled(change, row->response, row->count, row->changed);
   };
   for (int iteration = 0; iteration < iterations; ++iteration) {
     if (iteration % 2 == 1) {

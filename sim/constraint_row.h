@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/tree_dynamics.h"
+#include "sim/lanes.h"
 
 namespace simwright::sim {
 
@@ -27,20 +27,12 @@ struct ConstraintRow {
 };
 
 // Returns J v of one side.
-inline double Speed(const double* jacobian, const double* velocity, int count) {
-  double sums[kLanes] = {};
-  for (int i = 0; i < count; i += kLanes) {
-    for (int k = 0; k < kLanes; ++k) sums[k] += jacobian[i + k] * velocity[i + k];
-  }
-  return (sums[0] + sums[2]) + (sums[1] + sums[3]);
+__attribute__((always_inline)) inline double Speed(const RowSide& side) {
+  return Product(side.jacobian, side.velocity, side.jacobian_count);
 }
 
-inline double Speed(const RowSide& side) {
-  return Speed(side.jacobian, side.velocity, side.jacobian_count);
-}
-
-inline void Apply(const RowSide& side, double impulse) {
-  for (int i = 0; i < side.response_count; ++i) side.changed[i] += impulse * side.response[i];
+__attribute__((always_inline)) inline void Apply(const RowSide& side, double impulse) {
+  AddScaled(impulse, side.response, side.response_count, side.changed);
 }
 
 }  // namespace simwright::sim

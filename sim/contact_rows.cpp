@@ -87,7 +87,7 @@ ConstraintRow CompactSolver::MakeRow(const Contact& contact, const Eigen::Vector
   double mobility = 0.0;
   for (const RowSide* side : {&row.a, &row.b}) {
     const auto offset = side->velocity - side->changed;  // the Jacobian's first, in the response
-    mobility += Speed(side->jacobian, side->response + offset, side->jacobian_count);
+    mobility += Product(side->jacobian, side->response + offset, side->jacobian_count);
   }
   row.inertia = mobility > std::numeric_limits<double>::epsilon() ? 1.0 / mobility : 0.0;
   row.normal = static_cast<int>(normals_.size()) - 1;

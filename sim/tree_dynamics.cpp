@@ -6,6 +6,7 @@
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
 #include "sim/bullet_shape.h"
+#include "sim/lanes.h"
 
 namespace simwright::sim {
 namespace {
@@ -185,8 +186,7 @@ Span TreeDynamics::Respond(int link, const double* row, Span nonzero, double* re
   for (int j = nonzero.first; j < end; ++j) {
     const double share = row[j];
     if (share == 0.0) continue;
-    const double* column = InverseInertia(j);  // symmetric
-    for (int i = reach.first; i < reach.first + reach.count; ++i) response[i] += share * column[i];
+    AddScaled(share, InverseInertia(j) + reach.first, reach.count, response + reach.first);
   }
   return reach;
 }
@@ -259,8 +259,7 @@ void TreeDynamics::StepFreely(const Eigen::Vector3d& gravity, double dt) {
   }
   for (int j = 0; j < size_; ++j) {
     const double share = dt * load_[static_cast<size_t>(j)];
-    const double* column = InverseInertia(j);
-    for (int i = 0; i < stride_; ++i) velocity_[static_cast<size_t>(i)] += share * column[i];
+    AddScaled(share, InverseInertia(j), stride_, velocity_.data());
   }
   for (double& velocity : velocity_) velocity = std::clamp(velocity, -kFastest, kFastest);
 }

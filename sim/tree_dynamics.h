@@ -8,9 +8,7 @@ class btMultiBody;
 
 namespace simwright::sim {
 
-constexpr int kLanes = 4;  // generalized vectors are padded with zeros to a multiple of this
-
-// A part of a generalized vector; both numbers are multiples of kLanes.
+// A part of a padded generalized vector; both numbers are multiples of kLanes (sim/lanes.h).
 struct Span {
   int first = 0, count = 0;
 };
