@@ -1,15 +1,10 @@
 #include "sim/articulated_world.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <btBulletDynamicsCommon.h>
 
 #include "core/error.h"
@@ -17,10 +12,8 @@
 #include "sim/compact_solver.h"
 #include "sim/exclusion_filter.h"
 #include "sim/floor_contact.h"
-#include "sim/joint_velocity_constraint.h"
 #include "sim/link_setup.h"
-#include "sim/link_tree.h"
-#include "sim/tree_dynamics.h"
+#include "sim/loaded_tree.h"
 
 namespace simwright::sim {
 namespace {
@@ -32,77 +25,12 @@ constexpr int kFloorUserIndex = -1;  // Bullet's own default for unnumbered bodi
 // the default of 2 cm a closing oven door was blocked by a point that it had already passed.
 constexpr double kContactReach = 0.002;
 
-constexpr double kUnboundedForce = std::numeric_limits<float>::max();
-
 double FrictionOf(const RigidBody& link, int index, const Placement& placement) {
   for (const auto& [given, friction] : placement.link_friction) {
     if (given == index) return placement.friction_scale * friction;
   }
   return placement.friction_scale * link.friction;
 }
-
-struct LoadedJoint {
-  bool moves = false;
-  double friction = 0.0;
-  JointMotor drive;                     // with friction and damping
-  double gear_force = kUnboundedForce;  // of a mimic joint, N m or N at most
-  // The constraints for Bullet's own solver.
-  std::unique_ptr<JointVelocityConstraint> motor;
-  std::unique_ptr<btMultiBodyJointLimitConstraint> limit;
-  std::unique_ptr<btMultiBodyGearConstraint> gear;  // to the leader of a mimic joint
-};
-
-// A collider with an offset from its Bullet link's own frame.
-struct Offset {
-  btMultiBodyLinkCollider* collider = nullptr;
-  int carrier = 0;
-  btTransform carrier_from_collider;
-};
-
-btTransform PoseOf(const TreeDynamics& dynamics, int link) {
-  const Eigen::Matrix3d& r = dynamics.Rotation(link);
-  return btTransform(
-      btMatrix3x3(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)),
-      ToBullet(dynamics.Center(link)));
-}
-
-struct LoadedTree {
-  std::shared_ptr<const PreparedBody> prepared;
-  const LinkTree* tree = nullptr;
-  std::vector<Offset> offsets;  // a carrier's own collider after those of its links
-  const std::vector<std::unique_ptr<BulletShape>>* shapes_by_link = nullptr;
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
-  std::vector<LoadedJoint> joints;
-  std::unique_ptr<btMultiBody> multi;
-  std::unique_ptr<TreeDynamics> dynamics;  // for CompactSolver
-
-  const BulletShape& Shape(int link) const {
-    return *shapes_by_link->at(static_cast<size_t>(link));
-  }
-  btMultiBodyLinkCollider* Collider(int link) const {
-    return colliders.at(static_cast<size_t>(link)).get();
-  }
-  // Returns Bullet's index of the child link of joint `joint`.
-  int Joint(int joint) const { return tree->links.at(static_cast<size_t>(joint) + 1).bullet; }
-  // Moves all colliders to the poses of `dynamics`; returns false if these have not changed.
-  bool FollowDynamics() {
-    if (!dynamics->UpdatePoses()) return false;
-    for (size_t i = 0; i < colliders.size(); ++i) {
-      if (!colliders[i]) continue;
-      const TreeLink& place = tree->links[i];
-      colliders[i]->setWorldTransform(PoseOf(*dynamics, place.bullet));
-    }
-    PlaceColliders();
-    return true;
-  }
-  // Bullet moves a link's collider to the link's frame.
-  void PlaceColliders() {
-    for (const Offset& offset : offsets) {
-      const btTransform& carrier = Collider(offset.carrier)->getWorldTransform();
-      offset.collider->setWorldTransform(carrier * offset.carrier_from_collider);
-    }
-  }
-};
 
 void RequireMass(const ArticulatedBody& body, bool fixed) {
   for (size_t i = 0; i < body.links.size(); ++i) {
@@ -111,17 +39,6 @@ void RequireMass(const ArticulatedBody& body, bool fixed) {
       throw core::Error("a moving link has no mass",
                         body.name() + " link '" + body.links[i].name + "'",
                         "add an <inertial> element");
-    }
-  }
-}
-
-void AddOffsets(LoadedTree* loaded) {
-  for (const bool own : {false, true}) {
-    for (size_t i = 0; i < loaded->colliders.size(); ++i) {
-      const int link = static_cast<int>(i);
-      const TreeLink& place = loaded->tree->links[i];
-      if (!place.offset || !loaded->Collider(link) || (place.carrier == link) != own) continue;
-      loaded->offsets.push_back({loaded->Collider(link), place.carrier, ToBullet(*place.offset)});
     }
   }
 }
@@ -138,7 +55,8 @@ btDefaultCollisionConstructionInfo Pools() {
 }  // namespace
 
 struct ArticulatedWorld::Bullet {
-  explicit Bullet(bool use_compact) : compact(use_compact) {
+  explicit Bullet(const WorldOptions& options)
+      : compact(options.compact_solver), sleeping(options.sleeping) {
     world = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, &solver,
                                                        &configuration);
     broadphase.getOverlappingPairCache()->setOverlapFilterCallback(exclusion.callback());
@@ -148,20 +66,22 @@ struct ArticulatedWorld::Bullet {
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
   ExclusionFilter exclusion;
-  bool compact;
+  bool compact, sleeping;
   CompactSolver compact_solver;        // if so
   btMultiBodyConstraintSolver solver;  // else
   std::unique_ptr<btMultiBodyDynamicsWorld> world;
   btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
   std::unique_ptr<btRigidBody> floor;
   std::vector<std::unique_ptr<LoadedTree>> bodies;
+  std::vector<std::vector<btCollisionObject*>> moving_colliders;  // by body, for PutToSleep
   btAlignedObjectArray<btQuaternion> scratch_turns;
   btAlignedObjectArray<btVector3> scratch_origins;
 
   ~Bullet() {
     for (const auto& body : bodies) {
       for (const LoadedJoint& joint : body->joints) {
-        if (joint.motor) world->removeMultiBodyConstraint(joint.motor->constraint());
+        if (joint.motor_constraint)
+          world->removeMultiBodyConstraint(joint.motor_constraint->constraint());
         if (joint.limit) world->removeMultiBodyConstraint(joint.limit.get());
         if (joint.gear) world->removeMultiBodyConstraint(joint.gear.get());
       }
@@ -174,6 +94,12 @@ struct ArticulatedWorld::Bullet {
   }
 
   LoadedTree& Body(int index) { return *bodies.at(static_cast<size_t>(index)); }
+  // Returns the body, awake for the next fifth of a second.
+  LoadedTree& Wake(int index) {
+    LoadedTree& loaded = Body(index);
+    if (loaded.dynamics) loaded.dynamics->Disturb();
+    return loaded;
+  }
 
   void AddColliders(const ArticulatedBody& body, const Placement& placement, LoadedTree* loaded);
   void AddJoints(const ArticulatedBody& body, double scale, LoadedTree* loaded);
@@ -199,6 +125,7 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
   if (placement.self_contacts) {
     exclusion.AllowSelfContacts(static_cast<int>(bodies.size()), body.kinematics->excluded_pairs());
   }
+  moving_colliders.emplace_back();
   for (size_t i = 0; i < body.links.size(); ++i) {
     const RigidBody& link = body.links[i];
     const TreeLink& place = loaded->tree->links[i];
@@ -231,9 +158,11 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
     } else if (carries) {
       loaded->multi->getLink(place.bullet).m_collider = collider.get();
     }
+    if (still && sleeping) collider->forceActivationState(ISLAND_SLEEPING);
+    if (!still) moving_colliders.back().push_back(collider.get());
     loaded->colliders.back() = std::move(collider);
   }
-  AddOffsets(loaded);
+  loaded->AddOffsets();
 }
 
 void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double scale,
@@ -244,13 +173,13 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double sca
     LoadedJoint& entry = loaded->joints[static_cast<size_t>(i)];
     entry.moves = true;
     entry.friction = scale * joint.friction;
-    entry.drive = {0.0, -entry.friction, entry.friction, scale * joint.damping};
+    entry.motor = {0.0, -entry.friction, entry.friction, scale * joint.damping};
     const int leader =
         joint.mimic ? loaded->Joint(body.kinematics->JointIndex(joint.mimic->joint)) : -1;
     const int link = loaded->Joint(i);
     if (compact) {
       const bool limited = joint.type != assets::JointType::kContinuous;
-      SolverJoint solved{link, &entry.drive, limited, joint.lower, joint.upper, leader};
+      SolverJoint solved{link, &entry.motor, limited, joint.lower, joint.upper, leader};
       if (joint.mimic) {
         solved.multiplier = joint.mimic->multiplier;
         solved.offset = joint.mimic->offset;
@@ -267,8 +196,8 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double sca
 void ArticulatedWorld::Bullet::AddBulletConstraints(const assets::Joint& joint, int link,
                                                     LoadedTree* loaded, LoadedJoint* entry) {
   btMultiBody* multi = loaded->multi.get();
-  entry->motor = std::make_unique<JointVelocityConstraint>(multi, link, &entry->drive);
-  world->addMultiBodyConstraint(entry->motor->constraint());
+  entry->motor_constraint = std::make_unique<JointVelocityConstraint>(multi, link, &entry->motor);
+  world->addMultiBodyConstraint(entry->motor_constraint->constraint());
   if (entry->gear) world->addMultiBodyConstraint(entry->gear.get());
   if (joint.type == assets::JointType::kContinuous) return;
   entry->limit =
@@ -286,10 +215,15 @@ void ArticulatedWorld::Bullet::Step(double dt) {
     info.m_timeStep = dt;
     info.m_stepCount = 0;
     world->computeOverlappingPairs();
+    if (sleeping) {
+      compact_solver.PutToSleep(moving_colliders, broadphase.getOverlappingPairCache());
+    }
     dispatcher.dispatchAllCollisionPairs(broadphase.getOverlappingPairCache(), info, &dispatcher);
     compact_solver.Step(dt, world->getSolverInfo().m_numIterations, FromBullet(world->getGravity()),
                         &dispatcher);
-    for (const auto& body : bodies) UpdatePoses(body.get());
+    for (size_t i = 0; i < bodies.size(); ++i) {
+      if (!compact_solver.IsAsleep(static_cast<int>(i))) UpdatePoses(bodies[i].get());
+    }
   }
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     dispatcher.getManifoldByIndexInternal(i)->setContactBreakingThreshold(kContactReach);
@@ -297,7 +231,7 @@ void ArticulatedWorld::Bullet::Step(double dt) {
 }
 
 ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
-    : bullet_(std::make_unique<Bullet>(options.compact_solver)), options_(options) {
+    : bullet_(std::make_unique<Bullet>(options)), options_(options) {
   if (!(options.time_step > 0.0) || options.solver_iterations < 1 || !(options.margin >= 0.0)) {
     throw core::Error("a world needs a positive time step and at least one solver iteration");
   }
@@ -319,6 +253,7 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
   bullet_->floor = std::make_unique<btRigidBody>(info);
   bullet_->floor->setUserIndex(kFloorUserIndex);
   bullet_->world->addRigidBody(bullet_->floor.get(), kFloorGroup, btBroadphaseProxy::AllFilter);
+  if (options.sleeping) bullet_->floor->forceActivationState(ISLAND_SLEEPING);
 }
 
 ArticulatedWorld::~ArticulatedWorld() = default;
@@ -381,14 +316,14 @@ int ArticulatedWorld::Add(const RigidBody& body, const Eigen::Isometry3d& world_
 }
 
 void ArticulatedWorld::SetPosition(int body, int joint, double position) {
-  LoadedTree& loaded = bullet_->Body(body);
+  LoadedTree& loaded = bullet_->Wake(body);
   loaded.multi->setJointPos(loaded.Joint(joint), position);
   loaded.multi->setJointVel(loaded.Joint(joint), 0.0);
   bullet_->UpdatePoses(&loaded);
 }
 
 void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from_root) {
-  LoadedTree& loaded = bullet_->Body(body);
+  LoadedTree& loaded = bullet_->Wake(body);
   loaded.multi->setBaseWorldTransform(
       ToBullet(Eigen::Isometry3d(world_from_root * loaded.tree->links[0].link_from_principal)));
   loaded.multi->setBaseVel(btVector3(0, 0, 0));
@@ -398,35 +333,37 @@ void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from
 
 void ArticulatedWorld::SetRootVelocity(int body, const Eigen::Vector3d& linear,
                                        const Eigen::Vector3d& angular) {
-  btMultiBody& multi = *bullet_->Body(body).multi;
+  btMultiBody& multi = *bullet_->Wake(body).multi;
   multi.setBaseVel(ToBullet(linear));
   multi.setBaseOmega(ToBullet(angular));
 }
 
 void ArticulatedWorld::SetGravity(const Eigen::Vector3d& gravity) {
   bullet_->world->setGravity(ToBullet(gravity));
+  for (size_t i = 0; i < bullet_->bodies.size(); ++i) bullet_->Wake(static_cast<int>(i));
 }
 
 void ArticulatedWorld::Drive(int body, int joint, double velocity, double max_force) {
-  LoadedJoint& entry = bullet_->Body(body).joints.at(static_cast<size_t>(joint));
+  LoadedJoint& entry = bullet_->Wake(body).joints.at(static_cast<size_t>(joint));
   if (!entry.moves) throw core::Error("a fixed joint cannot be driven");
+  if (bullet_->compact) bullet_->compact_solver.SetDriven(body);
   const double friction = entry.friction;
   const double spare = max_force - friction;
-  JointMotor& drive = entry.drive;
+  JointMotor& motor = entry.motor;
   // Friction takes its share of the force along the motion, and adds to it when braking.
   if (velocity == 0.0 || spare <= 0.0) {
     const double hold = velocity == 0.0 ? max_force + friction : friction;
-    drive = {0.0, -hold, hold, drive.damping};
+    motor = {0.0, -hold, hold, motor.damping};
   } else if (velocity > 0.0) {
-    drive = {velocity, -max_force - friction, spare, drive.damping};
+    motor = {velocity, -max_force - friction, spare, motor.damping};
   } else {
-    drive = {velocity, -spare, max_force + friction, drive.damping};
+    motor = {velocity, -spare, max_force + friction, motor.damping};
   }
 }
 
 void ArticulatedWorld::Release(int body, int joint) {
-  LoadedJoint& entry = bullet_->Body(body).joints.at(static_cast<size_t>(joint));
-  entry.drive = {0.0, -entry.friction, entry.friction, entry.drive.damping};
+  LoadedJoint& entry = bullet_->Wake(body).joints.at(static_cast<size_t>(joint));
+  entry.motor = {0.0, -entry.friction, entry.friction, entry.motor.damping};
 }
 
 void ArticulatedWorld::LimitMimic(int body, int joint, double max_force) {
@@ -437,12 +374,12 @@ void ArticulatedWorld::LimitMimic(int body, int joint, double max_force) {
 }
 
 void ArticulatedWorld::Push(int body, int joint, double force) {
-  LoadedTree& loaded = bullet_->Body(body);
+  LoadedTree& loaded = bullet_->Wake(body);
   loaded.multi->addJointTorque(loaded.Joint(joint), force);
 }
 
 void ArticulatedWorld::PushRoot(int body, const Eigen::Vector3d& force) {
-  bullet_->Body(body).multi->addBaseForce(ToBullet(force));
+  bullet_->Wake(body).multi->addBaseForce(ToBullet(force));
 }
 
 void ArticulatedWorld::SetIterations(int iterations) {

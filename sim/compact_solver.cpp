@@ -195,12 +195,14 @@ void CompactSolver::Step(double dt, int iterations, const Eigen::Vector3d& gravi
   warm_.clear();
   gear_kept_.clear();
   for (const Tree& tree : trees_) {
+    if (tree.asleep) continue;
     tree.dynamics->UpdatePoses();
     tree.dynamics->UpdateInverseInertia();
     tree.dynamics->StepFreely(gravity, dt);
   }
   Reserve(dispatcher);
   for (Tree& tree : trees_) {
+    if (tree.asleep) continue;
     for (SolverJoint& joint : tree.joints) {
       AddMotor(dt, tree.dynamics, &joint);
       if (joint.leader >= 0) AddGear(dt, tree.dynamics, &joint);
@@ -213,7 +215,9 @@ void CompactSolver::Step(double dt, int iterations, const Eigen::Vector3d& gravi
   WarmStart();
   Iterate(iterations);
   KeepImpulses();
-  for (const Tree& tree : trees_) tree.dynamics->Integrate(dt);
+  for (const Tree& tree : trees_) {
+    if (!tree.asleep) tree.dynamics->Integrate(dt);
+  }
 }
 
 }  // namespace simwright::sim

@@ -9,8 +9,10 @@
 #include "sim/joint_motor.h"
 #include "sim/tree_dynamics.h"
 
+class btCollisionObject;
 class btDispatcher;
 class btManifoldPoint;
+class btOverlappingPairCache;
 class btPersistentManifold;
 
 namespace simwright::sim {
@@ -39,6 +41,15 @@ class CompactSolver {
   // Adds a tree, whose index is the user index of its colliders; `dynamics` must outlive the
   // solver.
   void AddTree(TreeDynamics* dynamics) { trees_.push_back({dynamics, {}}); }
+  // Tells that a motor drives joints of the tree from now on: it and what is near it stays awake.
+  void SetDriven(int tree) { trees_[static_cast<size_t>(tree)].driven = true; }
+  // Puts trees to sleep that have been still for a fifth of a second, while whatever is near them
+  // is still and not driven, and wakes the others. A tree that sleeps keeps its pose and its
+  // contacts, and costs nothing. `colliders`: by tree, those of the links that move. `pairs`: of
+  // the broadphase, which come 4 cm before a contact.
+  void PutToSleep(const std::vector<std::vector<btCollisionObject*>>& colliders,
+                  btOverlappingPairCache* pairs);
+  bool IsAsleep(int tree) const { return trees_[static_cast<size_t>(tree)].asleep; }
   void AddJoint(int tree, const SolverJoint& joint) {
     trees_[static_cast<size_t>(tree)].joints.push_back(joint);
   }
@@ -51,6 +62,7 @@ class CompactSolver {
   struct Tree {
     TreeDynamics* dynamics;
     std::vector<SolverJoint> joints;
+    bool driven = false, asleep = false, may_sleep = false;
   };
   // A constraint on one coordinate of a tree.
   struct JointRow {
@@ -80,6 +92,7 @@ class CompactSolver {
   };
   enum class Kind { kForce, kTorque };
 
+  bool IsStill(const btCollisionObject& object) const;
   void AddMotor(double dt, TreeDynamics* dynamics, SolverJoint* joint);
   void AddLimits(double dt, TreeDynamics* dynamics, SolverJoint* joint);
   void AddGear(double dt, TreeDynamics* dynamics, SolverJoint* joint);

@@ -53,7 +53,7 @@ CompactSolver::Touch CompactSolver::TouchOf(const btPersistentManifold& manifold
   if (collider == nullptr || tree < 0) return touch;
   TreeDynamics* dynamics = trees_[static_cast<size_t>(tree)].dynamics;
   touch.link = collider->m_link;
-  if (dynamics->Moves(touch.link)) touch.dynamics = dynamics;
+  if (!IsAsleep(tree) && dynamics->Moves(touch.link)) touch.dynamics = dynamics;
   return touch;
 }
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kRoot = 6;                   // coordinates of a free root
 constexpr double kSamePosition = 1e-12;    // rad or m
+constexpr double kStillPosition = 1e-5;    // rad or m
 constexpr double kFastest = 100.0;         // rad/s or m/s, Bullet's bound on each velocity
 constexpr double kLargestTurn = M_PI / 4;  // rad per step, Bullet's bound
 
@@ -45,6 +46,7 @@ TreeDynamics::TreeDynamics(btMultiBody* body)
   links_[0].last = free_ ? kRoot - 1 : -1;
   for (int i = 0; i < body->getNumLinks(); ++i) AddLink(i);
   SetReaches();
+  still_joints_.assign(links_.size(), 0.0);
   composite_.resize(links_.size());
   velocities_.resize(links_.size());
   accelerations_.resize(links_.size());
@@ -294,6 +296,32 @@ void TreeDynamics::Integrate(double dt) {
     body_.getLink(static_cast<int>(i) - 1).m_jointPos[0] += dt * speed;
   }
   body_.clearForcesAndTorques();
+  CountStillSteps();
+}
+
+void TreeDynamics::CountStillSteps() {
+  const btQuaternion& q = body_.getWorldToBaseRot();
+  const Eigen::Vector3d position = FromBullet(body_.getBasePos());
+  const Eigen::Vector4d turn(q.x(), q.y(), q.z(), q.w());
+  bool still = (position - still_position_).cwiseAbs().maxCoeff() < kStillPosition &&
+               (turn - still_turn_).cwiseAbs().maxCoeff() < 0.5 * kStillPosition;
+  for (size_t i = 1; i < links_.size() && still; ++i) {
+    still = links_[i].coordinate < 0 ||
+            std::abs(JointPosition(static_cast<int>(i) - 1) - still_joints_[i]) < kStillPosition;
+  }
+  ++still_steps_;
+  if (still) return;
+  still_steps_ = 0;
+  still_position_ = position;
+  still_turn_ = turn;
+  for (size_t i = 1; i < links_.size(); ++i) {
+    if (links_[i].coordinate >= 0) still_joints_[i] = JointPosition(static_cast<int>(i) - 1);
+  }
+}
+
+void TreeDynamics::Stop() {
+  std::fill(velocity_.begin(), velocity_.end(), 0.0);
+  body_.clearVelocities();
 }
 
 }  // namespace simwright::sim

@@ -40,6 +40,13 @@ class TreeDynamics {
   // the body.
   void Integrate(double dt);
 
+  // Returns the number of last steps in which no position moved by more than 10 um or 10 urad.
+  int still_steps() const { return still_steps_; }
+  // Starts that count again.
+  void Disturb() { still_steps_ = 0; }
+  // Sets the velocities to zero.
+  void Stop();
+
   // `link` is Bullet's index; the root is -1.
   const Eigen::Matrix3d& Rotation(int link) const { return At(link).rotation; }  // world_from_link
   const Eigen::Vector3d& Center(int link) const { return At(link).center; }      // m, world
@@ -113,6 +120,7 @@ class TreeDynamics {
   void InvertFreeBody();
   void Bias(const Eigen::Vector3d& gravity, double* forces);
   void IntegrateRoot(double dt);
+  void CountStillSteps();
   static Spatial Momentum(const SpatialInertia& inertia, const Spatial& motion);
 
   btMultiBody& body_;
@@ -123,6 +131,11 @@ class TreeDynamics {
   Eigen::Vector3d root_position_ = Eigen::Vector3d::Zero();  // at the last UpdatePoses
   Eigen::Vector4d root_turn_ = Eigen::Vector4d::Zero();
   bool posed_ = false, inverted_ = false;
+  // The positions that the tree keeps to: of the root, its turn and the joints by link.
+  Eigen::Vector3d still_position_ = Eigen::Vector3d::Zero();
+  Eigen::Vector4d still_turn_ = Eigen::Vector4d::Zero();
+  std::vector<double> still_joints_;
+  int still_steps_ = 0;
   std::vector<SpatialInertia> composite_;                     // by link: with all that it carries
   std::vector<Spatial> velocities_, accelerations_, forces_;  // by link
   std::vector<double> factor_;                                // (n x stride) L of M = L^T L

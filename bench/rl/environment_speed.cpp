@@ -205,9 +205,10 @@ struct PhysicsVariant {
   double time = 0.0, best = 0.0;     // steps/s
 };
 
-PhysicsVariant InBullet(const std::string& name, const Bodies& bodies, int iterations,
-                        bool compact) {
+PhysicsVariant InBullet(const std::string& name, const Bodies& bodies, int iterations, bool compact,
+                        bool sleeping = false) {
   sim::WorldOptions options;
+  options.sleeping = sleeping;
   options.solver_iterations = iterations;
   options.compact_solver = compact;
   auto world = std::make_shared<sim::ArticulatedWorld>(options);
@@ -257,6 +258,7 @@ void MeasurePhysics(const skills::SkillSubtask& scene, int repeats) {
   std::vector<PhysicsVariant> variants = {
       InBullet("Bullet, 4 iterations (no contacts)", bodies, 4, true),
       InBullet("Bullet, 20 iterations", bodies, 20, true),
+      InBullet("20, bodies at rest asleep as in training", bodies, 20, true, true),
       InBullet("20, Bullet's own solver", bodies, 20, false),
       InBullet("20, arm of convex hulls instead of capsules", without_capsules, 20, true),
       InBullet("20, cup of parts instead of its convex hull", in_parts, 20, true),
