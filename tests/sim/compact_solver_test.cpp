@@ -2,6 +2,8 @@
 // up to rounding.
 #include "sim/driven_robot.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "assets/primitive_meshes.h"
@@ -22,6 +24,11 @@ RigidBody CompactSolverCylinder() {
   RigidBody body;
   body.name = "cylinder";
   core::TriangleMesh mesh = assets::CylinderMesh(0.03, 0.1);
+  // Irregular: among the corners of a regular one rounding decides which touches first.
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const double k = static_cast<double>(i);
+    mesh.vertices[i] += 3e-4 * Eigen::Vector3d(std::sin(k), std::sin(2.0 * k), std::sin(3.0 * k));
+  }
   const auto solid = geometry::SolidMassProperties(mesh, 700.0);
   body.parts = {mesh};
   body.inertial = {solid.mass, solid.center_of_mass, solid.inertia};
@@ -53,10 +60,8 @@ TEST(CompactSolver, MovesThingsAsBulletDoes) {
   for (int step = 0; step < 240; ++step) {
     compact.Step();
     bullet.Step();
-    // It touches from step 19 on. Later rounding decides which of two corners touches first.
-    if (step < 60) {
-      ASSERT_LT((compact.Pose() - bullet.Pose()).norm(), 1e-9) << step;
-    }
+    // It touches from step 19 on; the collisions let differences grow.
+    ASSERT_LT((compact.Pose() - bullet.Pose()).norm(), step < 60 ? 1e-9 : 1e-6) << step;
     for (const LinkContact& contact : compact.world.Contacts()) impulse += contact.impulse;
   }
   // It did rest on the floor: contacts carried its full weight.
