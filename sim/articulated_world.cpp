@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <memory>
 
+#include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <btBulletDynamicsCommon.h>
 
 #include "core/error.h"
@@ -94,6 +98,9 @@ struct ArticulatedWorld::Bullet {
   }
 
   LoadedTree& Body(int index) { return *bodies.at(static_cast<size_t>(index)); }
+  void WakeAll() {
+    for (size_t i = 0; i < bodies.size(); ++i) Wake(static_cast<int>(i));
+  }
   // Returns the body, awake for the next fifth of a second.
   LoadedTree& Wake(int index) {
     LoadedTree& loaded = Body(index);
@@ -316,14 +323,16 @@ int ArticulatedWorld::Add(const RigidBody& body, const Eigen::Isometry3d& world_
 }
 
 void ArticulatedWorld::SetPosition(int body, int joint, double position) {
-  LoadedTree& loaded = bullet_->Wake(body);
+  bullet_->WakeAll();  // something may rest on it
+  LoadedTree& loaded = bullet_->Body(body);
   loaded.multi->setJointPos(loaded.Joint(joint), position);
   loaded.multi->setJointVel(loaded.Joint(joint), 0.0);
   bullet_->UpdatePoses(&loaded);
 }
 
 void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from_root) {
-  LoadedTree& loaded = bullet_->Wake(body);
+  bullet_->WakeAll();  // something may rest on it
+  LoadedTree& loaded = bullet_->Body(body);
   loaded.multi->setBaseWorldTransform(
       ToBullet(Eigen::Isometry3d(world_from_root * loaded.tree->links[0].link_from_principal)));
   loaded.multi->setBaseVel(btVector3(0, 0, 0));
@@ -340,7 +349,7 @@ void ArticulatedWorld::SetRootVelocity(int body, const Eigen::Vector3d& linear,
 
 void ArticulatedWorld::SetGravity(const Eigen::Vector3d& gravity) {
   bullet_->world->setGravity(ToBullet(gravity));
-  for (size_t i = 0; i < bullet_->bodies.size(); ++i) bullet_->Wake(static_cast<int>(i));
+  bullet_->WakeAll();
 }
 
 void ArticulatedWorld::Drive(int body, int joint, double velocity, double max_force) {

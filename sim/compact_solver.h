@@ -112,7 +112,7 @@ class CompactSolver {
   void KeepImpulses();
 
   std::vector<Tree> trees_;
-  std::vector<double> numbers_;  // Jacobians and responses of the rows
+  std::vector<double> numbers_;  // the Jacobians and responses of the rows
   size_t taken_ = 0;
   std::vector<JointRow> joints_;
   std::vector<ConstraintRow> gears_, normals_, frictions_, rollings_, spins_;

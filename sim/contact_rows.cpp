@@ -12,7 +12,7 @@
 namespace simwright::sim {
 namespace {
 
-// As in btContactSolverInfo.
+// The settings of btContactSolverInfo:
 constexpr double kContactRecovery = 0.2;    // the share of a penetration that one step corrects
 constexpr double kBounceSpeed = 0.2;        // m/s: slower contacts have no restitution
 constexpr double kContactWarmShare = 0.85;  // of the last step's impulse

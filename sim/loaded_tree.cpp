@@ -1,6 +1,21 @@
 #include "sim/loaded_tree.h"
 
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
 namespace simwright::sim {
+
+struct LoadedTree::Offset {
+  btMultiBodyLinkCollider* collider = nullptr;
+  int carrier = 0;
+  btTransform carrier_from_collider;
+};
+
+LoadedTree::LoadedTree() = default;
+
+LoadedTree::~LoadedTree() = default;
 
 void LoadedTree::AddOffsets() {
   for (const bool own : {false, true}) {

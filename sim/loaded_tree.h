@@ -4,15 +4,15 @@
 #include <memory>
 #include <vector>
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyGearConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
-
 #include "sim/bullet_shape.h"
 #include "sim/joint_velocity_constraint.h"
 #include "sim/link_tree.h"
 #include "sim/tree_dynamics.h"
+
+class btMultiBody;
+class btMultiBodyGearConstraint;
+class btMultiBodyJointLimitConstraint;
+class btMultiBodyLinkCollider;
 
 namespace simwright::sim {
 
@@ -35,6 +35,11 @@ struct LoadedJoint {
 // others.
 class LoadedTree {
  public:
+  LoadedTree();
+  ~LoadedTree();
+  LoadedTree(const LoadedTree&) = delete;
+  LoadedTree& operator=(const LoadedTree&) = delete;
+
   std::shared_ptr<const PreparedBody> prepared;
   const LinkTree* tree = nullptr;
   const std::vector<std::unique_ptr<BulletShape>>* shapes_by_link = nullptr;
@@ -60,11 +65,7 @@ class LoadedTree {
   void PlaceColliders();
 
  private:
-  struct Offset {
-    btMultiBodyLinkCollider* collider = nullptr;
-    int carrier = 0;
-    btTransform carrier_from_collider;
-  };
+  struct Offset;
   std::vector<Offset> offsets_;  // a carrier's own collider after those of its links
 };
 

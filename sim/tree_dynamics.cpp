@@ -114,17 +114,16 @@ double TreeDynamics::JointPosition(int link) const {
   return body_.getLink(link).m_jointPos[0];
 }
 
+// Positions that are not finite count as moved, so that they reach the poses.
 bool TreeDynamics::HasMoved() const {
   const btQuaternion& q = body_.getWorldToBaseRot();
-  if ((FromBullet(body_.getBasePos()) - root_position_).cwiseAbs().maxCoeff() > kSamePosition ||
-      (Eigen::Vector4d(q.x(), q.y(), q.z(), q.w()) - root_turn_).cwiseAbs().maxCoeff() >
-          kSamePosition) {
-    return true;
-  }
+  const Eigen::Vector4d turn(q.x(), q.y(), q.z(), q.w());
+  const double moved = (FromBullet(body_.getBasePos()) - root_position_).norm();
+  if (!(moved <= kSamePosition) || !((turn - root_turn_).norm() <= kSamePosition)) return true;
   for (size_t i = 1; i < links_.size(); ++i) {
     if (links_[i].coordinate < 0) continue;
-    const double position = body_.getLink(static_cast<int>(i) - 1).m_jointPos[0];
-    if (std::abs(position - links_[i].position) > kSamePosition) return true;
+    const double position = JointPosition(static_cast<int>(i) - 1);
+    if (!(std::abs(position - links_[i].position) <= kSamePosition)) return true;
   }
   return false;
 }
@@ -303,8 +302,8 @@ void TreeDynamics::CountStillSteps() {
   const btQuaternion& q = body_.getWorldToBaseRot();
   const Eigen::Vector3d position = FromBullet(body_.getBasePos());
   const Eigen::Vector4d turn(q.x(), q.y(), q.z(), q.w());
-  bool still = (position - still_position_).cwiseAbs().maxCoeff() < kStillPosition &&
-               (turn - still_turn_).cwiseAbs().maxCoeff() < 0.5 * kStillPosition;
+  bool still = (position - still_position_).norm() < kStillPosition &&
+               (turn - still_turn_).norm() < 0.5 * kStillPosition;
   for (size_t i = 1; i < links_.size() && still; ++i) {
     still = links_[i].coordinate < 0 ||
             std::abs(JointPosition(static_cast<int>(i) - 1) - still_joints_[i]) < kStillPosition;

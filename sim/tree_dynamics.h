@@ -96,7 +96,7 @@ class TreeDynamics {
     double mass = 0.0;
     Eigen::Vector3d moments = Eigen::Vector3d::Zero();
     Span reach;
-    // Of the current pose.
+    // The current pose and what follows from it:
     double position = 0.0;
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     Eigen::Vector3d center = Eigen::Vector3d::Zero();

@@ -1,5 +1,6 @@
 // Measures the speed of training worlds: the Panda, a microwave with its door and knobs, a cup.
 //   bench_environment_speed [--repeats N] [--part memory|physics|environments|learning]
+//   bench_environment_speed --mjcf FILE         writes the bodies for bench/peers/training_world.py
 // Control steps (60 Hz, 4 substeps) per second of 64 environments on one and two threads, with
 // random actions as an untrained policy samples them, and with the gripper closed on the door's
 // handle; with PPO and the default networks; the effect of each setting; resident memory; and
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include "bench/rl/training_scene.h"
+#include "core/files.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "geometry/convex_hull.h"
@@ -228,15 +230,21 @@ PhysicsVariant InBullet(const std::string& name, const Bodies& bodies, int itera
           }};
 }
 
-PhysicsVariant InMujoco(const Bodies& bodies, double time_step) {
-  const robot::RobotModel& panda = robot::Panda(false);
+// The bodies for MuJoCo, in the order robot, microwave, cup.
+std::vector<sim::MujocoPlacement> MujocoPlacements(const Bodies& bodies) {
   sim::MujocoPlacement robot{&bodies.robot}, microwave{&bodies.microwave}, cup{&bodies.cup};
-  for (const auto& limits : panda.limits) robot.motor_forces.push_back(limits.effort);
+  for (const auto& limits : robot::Panda(false).limits) {
+    robot.motor_forces.push_back(limits.effort);
+  }
   microwave.world_from_root = bodies.world_from_microwave;
   cup.world_from_root = bodies.world_from_cup;
   cup.fixed = false;
-  auto world = std::make_shared<sim::MujocoBodies>(
-      std::vector<sim::MujocoPlacement>{robot, microwave, cup}, time_step);
+  return {robot, microwave, cup};
+}
+
+PhysicsVariant InMujoco(const Bodies& bodies, double time_step) {
+  const robot::RobotModel& panda = robot::Panda(false);
+  auto world = std::make_shared<sim::MujocoBodies>(MujocoPlacements(bodies), time_step);
   for (size_t j = 0; j < panda.arm_joints.size(); ++j) {
     world->SetPosition(0, panda.arm_joints[j], panda.home()[static_cast<Eigen::Index>(j)]);
   }
@@ -248,6 +256,25 @@ PhysicsVariant InMujoco(const Bodies& bodies, double time_step) {
             for (const int joint : panda.gripper.joints) world->Hold(0, joint, panda.gripper.open);
             world->Step();
           }};
+}
+
+// Writes the bodies as MJCF, with the home position of each motor's joint as the numeric "home".
+void WriteMjcf(const skills::SkillSubtask& scene, const std::string& path) {
+  const robot::RobotModel& panda = robot::Panda(false);
+  const Bodies bodies = BodiesOf(scene, true, true);
+  std::string text =
+      sim::BodiesMjcf(MujocoPlacements(bodies), {.time_step = sim::WorldOptions().time_step});
+  std::string home;
+  for (size_t j = 0; j < panda.limits.size(); ++j) {
+    if (!(panda.limits[j].effort > 0.0)) continue;
+    const auto& arm = panda.arm_joints;
+    const auto found = std::find(arm.begin(), arm.end(), static_cast<int>(j)) - arm.begin();
+    const bool in_arm = found < static_cast<std::ptrdiff_t>(arm.size());
+    home += std::to_string(in_arm ? panda.home()[found] : panda.gripper.open) + " ";
+  }
+  text.insert(text.rfind("</mujoco>"),
+              "<custom><numeric name=\"home\" data=\"" + home + "\"/></custom>");
+  core::WriteFile(path, text);
 }
 
 void MeasurePhysics(const skills::SkillSubtask& scene, int repeats) {
@@ -285,13 +312,18 @@ void MeasurePhysics(const skills::SkillSubtask& scene, int repeats) {
 
 int main(int argc, char** argv) {
   int repeats = 5;
-  std::string part;  // empty: all
+  std::string part, mjcf;  // empty: all; none
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::string(argv[i]) == "--repeats") repeats = std::atoi(argv[i + 1]);
     if (std::string(argv[i]) == "--part") part = argv[i + 1];
+    if (std::string(argv[i]) == "--mjcf") mjcf = argv[i + 1];
   }
   const auto chosen = [&](const char* name) { return part.empty() || part == name; };
   const simwright::skills::SkillSubtask scene = simwright::MicrowaveAndCup();
+  if (!mjcf.empty()) {
+    simwright::WriteMjcf(scene, mjcf);
+    return 0;
+  }
   if (chosen("memory")) simwright::MeasureMemory(scene);
   if (chosen("physics")) simwright::MeasurePhysics(scene, repeats);
   if (chosen("environments")) simwright::MeasureEnvironments(scene, repeats);

@@ -1,4 +1,6 @@
 // Bodies that sleep in a world against bodies that never do.
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "assets/primitive_meshes.h"
@@ -82,6 +84,30 @@ TEST(Sleeping, EndsWhenGravityTurns) {
   for (int step = 0; step < 120; ++step) world.Step();
   const double acceleration = 8.0 - 0.5 * 9.81;
   EXPECT_NEAR(world.LinkPose(box, 0).translation().x() - start, 0.5 * acceleration * 0.25, 0.01);
+}
+
+// A box on another falls when the other is taken away.
+TEST(Sleeping, EndsWhenTheSupportIsMoved) {
+  ArticulatedWorld world(SleepingTestOptions(true));
+  Placement fixed;
+  fixed.world_from_root = At(0, 0, 0.1);
+  const int shelf = world.Add(ArticulatedBodyFrom(SleepingTestBox({0.2, 0.2, 0.02})), fixed);
+  const int box = world.Add(SleepingTestBox({0.05, 0.05, 0.05}), At(0, 0, 0.136));
+  for (int step = 0; step < 240; ++step) world.Step();
+  EXPECT_GT(world.LinkPose(box, 0).translation().z(), 0.13);
+  world.SetRootPose(shelf, At(1.0, 0, 0.1));
+  for (int step = 0; step < 240; ++step) world.Step();
+  EXPECT_LT(world.LinkPose(box, 0).translation().z(), 0.03);
+}
+
+// A state that is not finite shows in the poses instead of the last finite ones.
+TEST(Sleeping, HidesNoFailure) {
+  ArticulatedWorld world(SleepingTestOptions(true));
+  const int box = world.Add(SleepingTestBox({0.05, 0.05, 0.05}), At(0, 0, 0.5));
+  world.Step();
+  world.SetRootVelocity(box, {std::numeric_limits<double>::quiet_NaN(), 0, 0}, {0, 0, 0});
+  world.Step();
+  EXPECT_FALSE(world.LinkPose(box, 0).matrix().allFinite());
 }
 
 // A robot that has held still for seconds keeps what it holds awake: bit by bit the same as without
