@@ -262,8 +262,8 @@ PhysicsVariant InMujoco(const Bodies& bodies, double time_step) {
 void WriteMjcf(const skills::SkillSubtask& scene, const std::string& path) {
   const robot::RobotModel& panda = robot::Panda(false);
   const Bodies bodies = BodiesOf(scene, true, true);
-  std::string text =
-      sim::BodiesMjcf(MujocoPlacements(bodies), {.time_step = sim::WorldOptions().time_step});
+  std::string text = sim::BodiesMjcf(MujocoPlacements(bodies),
+                                     {.time_step = sim::WorldOptions().time_step, .floor = true});
   std::string home;
   for (size_t j = 0; j < panda.limits.size(); ++j) {
     if (!(panda.limits[j].effort > 0.0)) continue;
