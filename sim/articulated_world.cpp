@@ -16,9 +16,8 @@
 #include "sim/compact_solver.h"
 #include "sim/exclusion_filter.h"
 #include "sim/floor_contact.h"
-#include "sim/joint_velocity_constraint.h"
 #include "sim/link_setup.h"
-#include "sim/link_tree.h"
+#include "sim/loaded_tree.h"
 
 namespace simwright::sim {
 namespace {
@@ -37,47 +36,6 @@ double FrictionOf(const RigidBody& link, int index, const Placement& placement) 
   return placement.friction_scale * link.friction;
 }
 
-// The constraints of one movable joint.
-struct LoadedJoint {
-  double friction = 0.0;
-  std::unique_ptr<JointVelocityConstraint> motor;  // with friction and damping
-  std::unique_ptr<btMultiBodyJointLimitConstraint> limit;
-  std::unique_ptr<btMultiBodyGearConstraint> gear;  // to the leader of a mimic joint
-};
-
-// A collider with an offset from its Bullet link's own frame.
-struct Offset {
-  btMultiBodyLinkCollider* collider = nullptr;
-  int carrier = 0;
-  btTransform carrier_from_collider;
-};
-
-struct LoadedTree {
-  std::shared_ptr<const PreparedBody> prepared;
-  const LinkTree* tree = nullptr;
-  std::vector<Offset> offsets;  // a carrier's own collider after those of its links
-  const std::vector<std::unique_ptr<BulletShape>>* shapes_by_link = nullptr;
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders;
-  std::vector<LoadedJoint> joints;
-  std::unique_ptr<btMultiBody> multi;
-
-  const BulletShape& Shape(int link) const {
-    return *shapes_by_link->at(static_cast<size_t>(link));
-  }
-  btMultiBodyLinkCollider* Collider(int link) const {
-    return colliders.at(static_cast<size_t>(link)).get();
-  }
-  // Returns Bullet's index of the child link of joint `joint`.
-  int Joint(int joint) const { return tree->links.at(static_cast<size_t>(joint) + 1).bullet; }
-  // Bullet moves a link's collider to the link's frame.
-  void PlaceColliders() {
-    for (const Offset& offset : offsets) {
-      const btTransform& carrier = Collider(offset.carrier)->getWorldTransform();
-      offset.collider->setWorldTransform(carrier * offset.carrier_from_collider);
-    }
-  }
-};
-
 void RequireMass(const ArticulatedBody& body, bool fixed) {
   for (size_t i = 0; i < body.links.size(); ++i) {
     const bool moves = i == 0 ? !fixed : body.joints()[i - 1].Moves();
@@ -85,17 +43,6 @@ void RequireMass(const ArticulatedBody& body, bool fixed) {
       throw core::Error("a moving link has no mass",
                         body.name() + " link '" + body.links[i].name + "'",
                         "add an <inertial> element");
-    }
-  }
-}
-
-void AddOffsets(LoadedTree* loaded) {
-  for (const bool own : {false, true}) {
-    for (size_t i = 0; i < loaded->colliders.size(); ++i) {
-      const int link = static_cast<int>(i);
-      const TreeLink& place = loaded->tree->links[i];
-      if (!place.offset || !loaded->Collider(link) || (place.carrier == link) != own) continue;
-      loaded->offsets.push_back({loaded->Collider(link), place.carrier, ToBullet(*place.offset)});
     }
   }
 }
@@ -112,32 +59,33 @@ btDefaultCollisionConstructionInfo Pools() {
 }  // namespace
 
 struct ArticulatedWorld::Bullet {
-  explicit Bullet(bool compact) {
-    if (compact) {
-      solver = MakeCompactSolver();
-    } else {
-      solver = std::make_unique<btMultiBodyConstraintSolver>();
-    }
-    world = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, solver.get(),
+  explicit Bullet(const WorldOptions& options)
+      : compact(options.compact_solver), sleeping(options.sleeping) {
+    world = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, &solver,
                                                        &configuration);
+    broadphase.getOverlappingPairCache()->setOverlapFilterCallback(exclusion.callback());
   }
 
   btDefaultCollisionConfiguration configuration{Pools()};
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-  ExclusionFilter exclusion;  // used once a body excludes a pair
-  std::unique_ptr<btMultiBodyConstraintSolver> solver;
+  ExclusionFilter exclusion;
+  bool compact, sleeping;
+  CompactSolver compact_solver;        // if so
+  btMultiBodyConstraintSolver solver;  // else
   std::unique_ptr<btMultiBodyDynamicsWorld> world;
   btStaticPlaneShape floor_shape{btVector3(0, 0, 1), 0};
   std::unique_ptr<btRigidBody> floor;
   std::vector<std::unique_ptr<LoadedTree>> bodies;
+  std::vector<std::vector<btCollisionObject*>> moving_colliders;  // by body, for PutToSleep
   btAlignedObjectArray<btQuaternion> scratch_turns;
   btAlignedObjectArray<btVector3> scratch_origins;
 
   ~Bullet() {
     for (const auto& body : bodies) {
       for (const LoadedJoint& joint : body->joints) {
-        if (joint.motor) world->removeMultiBodyConstraint(joint.motor->constraint());
+        if (joint.motor_constraint)
+          world->removeMultiBodyConstraint(joint.motor_constraint->constraint());
         if (joint.limit) world->removeMultiBodyConstraint(joint.limit.get());
         if (joint.gear) world->removeMultiBodyConstraint(joint.gear.get());
       }
@@ -150,13 +98,29 @@ struct ArticulatedWorld::Bullet {
   }
 
   LoadedTree& Body(int index) { return *bodies.at(static_cast<size_t>(index)); }
+  void WakeAll() {
+    for (size_t i = 0; i < bodies.size(); ++i) Wake(static_cast<int>(i));
+  }
+  // Returns the body, awake for the next fifth of a second.
+  LoadedTree& Wake(int index) {
+    LoadedTree& loaded = Body(index);
+    if (loaded.dynamics) loaded.dynamics->Disturb();
+    return loaded;
+  }
 
   void AddColliders(const ArticulatedBody& body, const Placement& placement, LoadedTree* loaded);
   void AddJoints(const ArticulatedBody& body, double scale, LoadedTree* loaded);
+  void AddBulletConstraints(const assets::Joint& joint, int link, LoadedTree* loaded,
+                            LoadedJoint* entry);
+  void Step(double dt);
   void UpdatePoses(LoadedTree* loaded) {
-    loaded->multi->forwardKinematics(scratch_turns, scratch_origins);
-    loaded->multi->updateCollisionObjectWorldTransforms(scratch_turns, scratch_origins);
-    loaded->PlaceColliders();
+    if (compact) {
+      if (!loaded->FollowDynamics()) return;
+    } else {
+      loaded->multi->forwardKinematics(scratch_turns, scratch_origins);
+      loaded->multi->updateCollisionObjectWorldTransforms(scratch_turns, scratch_origins);
+      loaded->PlaceColliders();
+    }
     for (const auto& collider : loaded->colliders) {
       if (collider) world->updateSingleAabb(collider.get());
     }
@@ -165,10 +129,10 @@ struct ArticulatedWorld::Bullet {
 
 void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const Placement& placement,
                                             LoadedTree* loaded) {
-  if (placement.self_contacts && !body.kinematics->excluded_pairs().empty()) {
-    exclusion.Exclude(static_cast<int>(bodies.size()), body.kinematics->excluded_pairs());
-    broadphase.getOverlappingPairCache()->setOverlapFilterCallback(exclusion.callback());
+  if (placement.self_contacts) {
+    exclusion.AllowSelfContacts(static_cast<int>(bodies.size()), body.kinematics->excluded_pairs());
   }
+  moving_colliders.emplace_back();
   for (size_t i = 0; i < body.links.size(); ++i) {
     const RigidBody& link = body.links[i];
     const TreeLink& place = loaded->tree->links[i];
@@ -201,9 +165,11 @@ void ArticulatedWorld::Bullet::AddColliders(const ArticulatedBody& body, const P
     } else if (carries) {
       loaded->multi->getLink(place.bullet).m_collider = collider.get();
     }
+    if (still && sleeping) collider->forceActivationState(ISLAND_SLEEPING);
+    if (!still) moving_colliders.back().push_back(collider.get());
     loaded->colliders.back() = std::move(collider);
   }
-  AddOffsets(loaded);
+  loaded->AddOffsets();
 }
 
 void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double scale,
@@ -212,27 +178,67 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double sca
   for (const int i : body.kinematics->moving_joints()) {
     const assets::Joint& joint = body.joints()[static_cast<size_t>(i)];
     LoadedJoint& entry = loaded->joints[static_cast<size_t>(i)];
-    const int link = loaded->Joint(i);
+    entry.moves = true;
     entry.friction = scale * joint.friction;
-    entry.motor =
-        std::make_unique<JointVelocityConstraint>(loaded->multi.get(), link, scale * joint.damping);
-    entry.motor->SetTarget(0.0, -entry.friction, entry.friction);
-    world->addMultiBodyConstraint(entry.motor->constraint());
-    if (joint.mimic) {
-      entry.gear =
-          GearTo(*joint.mimic, loaded->Joint(body.kinematics->JointIndex(joint.mimic->joint)), link,
-                 loaded->multi.get());
-      world->addMultiBodyConstraint(entry.gear.get());
+    entry.motor = {0.0, -entry.friction, entry.friction, scale * joint.damping};
+    const int leader =
+        joint.mimic ? loaded->Joint(body.kinematics->JointIndex(joint.mimic->joint)) : -1;
+    const int link = loaded->Joint(i);
+    if (compact) {
+      const bool limited = joint.type != assets::JointType::kContinuous;
+      SolverJoint solved{link, &entry.motor, limited, joint.lower, joint.upper, leader};
+      if (joint.mimic) {
+        solved.multiplier = joint.mimic->multiplier;
+        solved.offset = joint.mimic->offset;
+        solved.gear_force = &entry.gear_force;
+      }
+      compact_solver.AddJoint(static_cast<int>(bodies.size()), solved);
+      continue;
     }
-    if (joint.type == assets::JointType::kContinuous) continue;
-    entry.limit = std::make_unique<btMultiBodyJointLimitConstraint>(loaded->multi.get(), link,
-                                                                    joint.lower, joint.upper);
-    world->addMultiBodyConstraint(entry.limit.get());
+    if (joint.mimic) entry.gear = GearTo(*joint.mimic, leader, link, loaded->multi.get());
+    AddBulletConstraints(joint, link, loaded, &entry);
+  }
+}
+
+void ArticulatedWorld::Bullet::AddBulletConstraints(const assets::Joint& joint, int link,
+                                                    LoadedTree* loaded, LoadedJoint* entry) {
+  btMultiBody* multi = loaded->multi.get();
+  entry->motor_constraint = std::make_unique<JointVelocityConstraint>(multi, link, &entry->motor);
+  world->addMultiBodyConstraint(entry->motor_constraint->constraint());
+  if (entry->gear) world->addMultiBodyConstraint(entry->gear.get());
+  if (joint.type == assets::JointType::kContinuous) return;
+  entry->limit =
+      std::make_unique<btMultiBodyJointLimitConstraint>(multi, link, joint.lower, joint.upper);
+  world->addMultiBodyConstraint(entry->limit.get());
+}
+
+// Bullet finds the contacts in both cases.
+void ArticulatedWorld::Bullet::Step(double dt) {
+  if (!compact) {
+    world->stepSimulation(dt, 0, dt);
+    for (const auto& body : bodies) body->PlaceColliders();
+  } else {
+    btDispatcherInfo& info = world->getDispatchInfo();
+    info.m_timeStep = dt;
+    info.m_stepCount = 0;
+    world->computeOverlappingPairs();
+    if (sleeping) {
+      compact_solver.PutToSleep(moving_colliders, broadphase.getOverlappingPairCache());
+    }
+    dispatcher.dispatchAllCollisionPairs(broadphase.getOverlappingPairCache(), info, &dispatcher);
+    compact_solver.Step(dt, world->getSolverInfo().m_numIterations, FromBullet(world->getGravity()),
+                        &dispatcher);
+    for (size_t i = 0; i < bodies.size(); ++i) {
+      if (!compact_solver.IsAsleep(static_cast<int>(i))) UpdatePoses(bodies[i].get());
+    }
+  }
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    dispatcher.getManifoldByIndexInternal(i)->setContactBreakingThreshold(kContactReach);
   }
 }
 
 ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
-    : bullet_(std::make_unique<Bullet>(options.compact_solver)), options_(options) {
+    : bullet_(std::make_unique<Bullet>(options)), options_(options) {
   if (!(options.time_step > 0.0) || options.solver_iterations < 1 || !(options.margin >= 0.0)) {
     throw core::Error("a world needs a positive time step and at least one solver iteration");
   }
@@ -254,6 +260,7 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
   bullet_->floor = std::make_unique<btRigidBody>(info);
   bullet_->floor->setUserIndex(kFloorUserIndex);
   bullet_->world->addRigidBody(bullet_->floor.get(), kFloorGroup, btBroadphaseProxy::AllFilter);
+  if (options.sleeping) bullet_->floor->forceActivationState(ISLAND_SLEEPING);
 }
 
 ArticulatedWorld::~ArticulatedWorld() = default;
@@ -300,6 +307,10 @@ int ArticulatedWorld::Add(std::shared_ptr<const PreparedBody> prepared,
   loaded->multi->setLinearDamping(0.0);
   loaded->multi->setAngularDamping(0.0);
   bullet_->world->addMultiBody(loaded->multi.get());
+  if (bullet_->compact) {
+    loaded->dynamics = std::make_unique<TreeDynamics>(loaded->multi.get());
+    bullet_->compact_solver.AddTree(loaded->dynamics.get());
+  }
   bullet_->AddColliders(body, placement, loaded.get());
   bullet_->AddJoints(body, placement.joint_scale, loaded.get());
   bullet_->UpdatePoses(loaded.get());
@@ -312,6 +323,7 @@ int ArticulatedWorld::Add(const RigidBody& body, const Eigen::Isometry3d& world_
 }
 
 void ArticulatedWorld::SetPosition(int body, int joint, double position) {
+  bullet_->WakeAll();  // something may rest on it
   LoadedTree& loaded = bullet_->Body(body);
   loaded.multi->setJointPos(loaded.Joint(joint), position);
   loaded.multi->setJointVel(loaded.Joint(joint), 0.0);
@@ -319,6 +331,7 @@ void ArticulatedWorld::SetPosition(int body, int joint, double position) {
 }
 
 void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from_root) {
+  bullet_->WakeAll();  // something may rest on it
   LoadedTree& loaded = bullet_->Body(body);
   loaded.multi->setBaseWorldTransform(
       ToBullet(Eigen::Isometry3d(world_from_root * loaded.tree->links[0].link_from_principal)));
@@ -329,49 +342,53 @@ void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from
 
 void ArticulatedWorld::SetRootVelocity(int body, const Eigen::Vector3d& linear,
                                        const Eigen::Vector3d& angular) {
-  btMultiBody& multi = *bullet_->Body(body).multi;
+  btMultiBody& multi = *bullet_->Wake(body).multi;
   multi.setBaseVel(ToBullet(linear));
   multi.setBaseOmega(ToBullet(angular));
 }
 
 void ArticulatedWorld::SetGravity(const Eigen::Vector3d& gravity) {
   bullet_->world->setGravity(ToBullet(gravity));
+  bullet_->WakeAll();
 }
 
 void ArticulatedWorld::Drive(int body, int joint, double velocity, double max_force) {
-  LoadedJoint& entry = bullet_->Body(body).joints.at(static_cast<size_t>(joint));
-  if (!entry.motor) throw core::Error("a fixed joint cannot be driven");
+  LoadedJoint& entry = bullet_->Wake(body).joints.at(static_cast<size_t>(joint));
+  if (!entry.moves) throw core::Error("a fixed joint cannot be driven");
+  if (bullet_->compact) bullet_->compact_solver.SetDriven(body);
   const double friction = entry.friction;
   const double spare = max_force - friction;
+  JointMotor& motor = entry.motor;
   // Friction takes its share of the force along the motion, and adds to it when braking.
   if (velocity == 0.0 || spare <= 0.0) {
     const double hold = velocity == 0.0 ? max_force + friction : friction;
-    entry.motor->SetTarget(0.0, -hold, hold);
+    motor = {0.0, -hold, hold, motor.damping};
   } else if (velocity > 0.0) {
-    entry.motor->SetTarget(velocity, -max_force - friction, spare);
+    motor = {velocity, -max_force - friction, spare, motor.damping};
   } else {
-    entry.motor->SetTarget(velocity, -spare, max_force + friction);
+    motor = {velocity, -spare, max_force + friction, motor.damping};
   }
 }
 
 void ArticulatedWorld::Release(int body, int joint) {
-  LoadedJoint& entry = bullet_->Body(body).joints.at(static_cast<size_t>(joint));
-  if (entry.motor) entry.motor->SetTarget(0.0, -entry.friction, entry.friction);
+  LoadedJoint& entry = bullet_->Wake(body).joints.at(static_cast<size_t>(joint));
+  entry.motor = {0.0, -entry.friction, entry.friction, entry.motor.damping};
 }
 
 void ArticulatedWorld::LimitMimic(int body, int joint, double max_force) {
   LoadedJoint& entry =
       bullet_->bodies[static_cast<size_t>(body)]->joints[static_cast<size_t>(joint)];
+  entry.gear_force = max_force;
   if (entry.gear) entry.gear->setMaxAppliedImpulse(max_force * options_.time_step);
 }
 
 void ArticulatedWorld::Push(int body, int joint, double force) {
-  LoadedTree& loaded = bullet_->Body(body);
+  LoadedTree& loaded = bullet_->Wake(body);
   loaded.multi->addJointTorque(loaded.Joint(joint), force);
 }
 
 void ArticulatedWorld::PushRoot(int body, const Eigen::Vector3d& force) {
-  bullet_->Body(body).multi->addBaseForce(ToBullet(force));
+  bullet_->Wake(body).multi->addBaseForce(ToBullet(force));
 }
 
 void ArticulatedWorld::SetIterations(int iterations) {
@@ -380,11 +397,7 @@ void ArticulatedWorld::SetIterations(int iterations) {
 }
 
 void ArticulatedWorld::Step() {
-  bullet_->world->stepSimulation(options_.time_step, 0, options_.time_step);
-  for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
-    bullet_->dispatcher.getManifoldByIndexInternal(i)->setContactBreakingThreshold(kContactReach);
-  }
-  for (const auto& body : bullet_->bodies) body->PlaceColliders();
+  bullet_->Step(options_.time_step);
   time_ += options_.time_step;
 }
 

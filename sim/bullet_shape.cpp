@@ -80,6 +80,9 @@ BulletShape::BulletShape(const RigidBody& body, double margin, HullContact conta
   compound_->setMargin(margin);
   compound_->setUserPointer(this);
   AddFloorPoints(body, principal_from_body, margin);
+  for (const FloorPoint& point : floor_points_) {
+    floor_radius_ = std::max(floor_radius_, point.center.norm() + point.radius);
+  }
 }
 
 void BulletShape::AddCapsule(const Capsule& capsule, const Eigen::Isometry3d& principal_from_body) {

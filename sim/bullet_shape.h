@@ -49,6 +49,8 @@ class BulletShape {
   const Eigen::Vector3d& moments() const { return moments_; }  // kg m^2, principal
   // Returns the vertices of the convex hull of all parts, and the ends of its capsules.
   const std::vector<FloorPoint>& floor_points() const { return floor_points_; }
+  // Returns the radius (m) of a ball about the principal frame's origin that contains their balls.
+  double floor_radius() const { return floor_radius_; }
 
  private:
   void AddCapsule(const Capsule& capsule, const Eigen::Isometry3d& principal_from_body);
@@ -60,6 +62,7 @@ class BulletShape {
   std::vector<std::unique_ptr<btConvexShape>> convex_;
   std::unique_ptr<btCompoundShape> compound_;
   std::vector<FloorPoint> floor_points_;
+  double floor_radius_ = 0.0;
   Eigen::Isometry3d body_from_principal_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d moments_ = Eigen::Vector3d::Zero();
 };

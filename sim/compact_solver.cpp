@@ -2,245 +2,222 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <limits>
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 
 namespace simwright::sim {
 namespace {
 
-// The range of an array (count) outside of which all values are zero.
-struct Range {
-  int first = 0, count = 0;
-};
+constexpr double kWarmShare = 0.85;      // of the last step's impulse
+constexpr double kRecovery = 0.2;        // the share of a position error that one step corrects
+constexpr double kDeepest = 0.04;        // rad or m: Bullet does not correct a deeper limit
+constexpr double kLargestLimit = 100.0;  // N m s or N s, the impulse of a joint limit
 
-Range WithoutZeros(const double* values, int count) {
-  int first = 0;
-  while (first < count && values[first] == 0.0) ++first;
-  while (count > first && values[count - 1] == 0.0) --count;
-  return {first, count - first};
-}
-
-// Uses two sums, so that additions do not wait for each other.
-double Dot(const double* a, const double* b, int count) {
-  double even = 0.0, odd = 0.0;
-  int i = 0;
-  for (; i + 1 < count; i += 2) {
-    even += a[i] * b[i];
-    odd += a[i + 1] * b[i + 1];
-  }
-  if (i < count) even += a[i] * b[i];
-  return even + odd;
-}
-
-void AddImpulse(const double* response, double impulse, int count, double* changed) {
-  for (int i = 0; i < count; ++i) changed[i] += response[i] * impulse;
-}
-
-class CompactSolver : public btMultiBodyConstraintSolver {
- public:
-  btScalar solveGroupCacheFriendlySetup(btCollisionObject** bodies, int body_count,
-                                        btPersistentManifold** manifolds, int manifold_count,
-                                        btTypedConstraint** constraints, int constraint_count,
-                                        const btContactSolverInfo& info,
-                                        btIDebugDraw* drawer) override;
-  // Returns the sum of squared impulse changes, (N s)^2 or (N m s)^2.
-  btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
-                                btPersistentManifold** manifolds, int manifold_count,
-                                btTypedConstraint** constraints, int constraint_count,
-                                const btContactSolverInfo& info, btIDebugDraw* drawer) override;
-  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
-                                         const btContactSolverInfo& info) override;
-
- private:
-  // One body's part of a constraint row: `count` numbers from the first non-zero one on.
-  struct Side {
-    const double* jacobian = nullptr;
-    const double* velocity = nullptr;  // velocity changes that the jacobian reads
-    const double* response = nullptr;  // to a unit impulse
-    double* changed = nullptr;         // the velocities that the impulse changes
-    int jacobian_count = 0, response_count = 0;
-  };
-  struct Row {
-    Side a, b;
-    double rhs = 0.0, inertia = 0.0, compliance = 0.0;  // from btMultiBodySolverConstraint
-    double lower = 0.0, upper = 0.0, impulse = 0.0;
-    double friction = 0.0;
-    int normal = -1;  // of a friction row: its contact's row in normals_
-  };
-  struct MovedBody {
-    btMultiBody* body = nullptr;
-    int first = 0;  // in m_data.m_deltaVelocities
-  };
-
-  void Pack(const btMultiBodyConstraintArray& source, std::vector<Row>* rows);
-  Side PackSide(btMultiBody* body, int jacobian, int velocity);
-  static void WriteBack(const std::vector<Row>& rows, btMultiBodyConstraintArray* target);
-  static double UnboundedChange(const Row& row);
-  static double Change(double change, Row* row);
-  static double Solve(Row* row);
-  double SolveSpins();
-  // `pressed_only`: like Bullet, keeps the impulse of a rolling friction at contacts without
-  // pressure.
-  double SolveCones(bool pressed_only, std::vector<Row>* rows);
-
-  std::vector<Row> joints_, normals_, frictions_, rollings_, spins_;
-  std::vector<MovedBody> moved_bodies_;
-  std::vector<double> before_;  // m_data.m_deltaVelocities before the first iteration
-};
-
-CompactSolver::Side CompactSolver::PackSide(btMultiBody* body, int jacobian, int velocity) {
-  Side side;
-  if (body == nullptr) return side;
-  const int numbers = 6 + body->getNumDofs();
-  const auto same = [&](const MovedBody& moved) { return moved.body == body; };
-  if (std::none_of(moved_bodies_.begin(), moved_bodies_.end(), same)) {
-    moved_bodies_.push_back({body, velocity});
-  }
-  const Range read = WithoutZeros(&m_data.m_jacobians[jacobian], numbers);
-  const Range written = WithoutZeros(&m_data.m_deltaVelocitiesUnitImpulse[jacobian], numbers);
-  side.jacobian = &m_data.m_jacobians[jacobian] + read.first;
-  side.velocity = &m_data.m_deltaVelocities[velocity] + read.first;
-  side.jacobian_count = read.count;
-  side.response = &m_data.m_deltaVelocitiesUnitImpulse[jacobian] + written.first;
-  side.changed = &m_data.m_deltaVelocities[velocity] + written.first;
-  side.response_count = written.count;
-  return side;
-}
-
-void CompactSolver::Pack(const btMultiBodyConstraintArray& source, std::vector<Row>* rows) {
-  rows->resize(static_cast<size_t>(source.size()));
-  for (int i = 0; i < source.size(); ++i) {
-    const btMultiBodySolverConstraint& from = source[i];
-    Row& row = (*rows)[static_cast<size_t>(i)];
-    row.a = PackSide(from.m_multiBodyA, from.m_jacAindex, from.m_deltaVelAindex);
-    row.b = PackSide(from.m_multiBodyB, from.m_jacBindex, from.m_deltaVelBindex);
-    row.rhs = from.m_rhs;
-    row.inertia = from.m_jacDiagABInv;
-    row.compliance = from.m_cfm;
-    row.lower = from.m_lowerLimit;
-    row.upper = from.m_upperLimit;
-    row.impulse = from.m_appliedImpulse;
-    row.friction = from.m_friction;
-    row.normal = from.m_frictionIndex;
-  }
-}
-
-void CompactSolver::WriteBack(const std::vector<Row>& rows, btMultiBodyConstraintArray* target) {
-  for (int i = 0; i < target->size(); ++i) {
-    (*target)[i].m_appliedImpulse = rows[static_cast<size_t>(i)].impulse;
-  }
-}
-
-btScalar CompactSolver::solveGroupCacheFriendlySetup(
-    btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
-    int manifold_count, btTypedConstraint** constraints, int constraint_count,
-    const btContactSolverInfo& info, btIDebugDraw* drawer) {
-  const btScalar result = btMultiBodyConstraintSolver::solveGroupCacheFriendlySetup(
-      bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, drawer);
-  moved_bodies_.clear();
-  Pack(m_multiBodyNonContactConstraints, &joints_);
-  Pack(m_multiBodyNormalContactConstraints, &normals_);
-  Pack(m_multiBodyFrictionContactConstraints, &frictions_);
-  Pack(m_multiBodyTorsionalFrictionContactConstraints, &rollings_);
-  Pack(m_multiBodySpinningFrictionContactConstraints, &spins_);
-  before_.resize(static_cast<size_t>(m_data.m_deltaVelocities.size()));
-  for (size_t i = 0; i < before_.size(); ++i) {
-    before_[i] = m_data.m_deltaVelocities[static_cast<int>(i)];
-  }
-  return result;
-}
-
-// Returns the row's unbounded impulse change.
-double CompactSolver::UnboundedChange(const Row& row) {
-  const double speed = Dot(row.a.jacobian, row.a.velocity, row.a.jacobian_count) +
-                       Dot(row.b.jacobian, row.b.velocity, row.b.jacobian_count);
-  return row.rhs - row.impulse * row.compliance - speed * row.inertia;
-}
-
-// Changes the impulse; returns the square of the change.
-double CompactSolver::Change(double change, Row* row) {
-  row->impulse += change;
-  AddImpulse(row->a.response, change, row->a.response_count, row->a.changed);
-  AddImpulse(row->b.response, change, row->b.response_count, row->b.changed);
-  return change * change;
-}
-
-double CompactSolver::Solve(Row* row) {
-  const double impulse = row->impulse + UnboundedChange(*row);
-  const double bounded = std::clamp(impulse, row->lower, row->upper);
-  const double square = Change(bounded - row->impulse, row);
-  row->impulse = bounded;
-  return square;
-}
-
-double CompactSolver::SolveSpins() {
-  double change = 0.0;
-  for (Row& row : spins_) {
-    const double pressed = normals_[static_cast<size_t>(row.normal)].impulse;
-    if (pressed <= 0.0) continue;
-    row.upper = row.friction * pressed;
-    row.lower = -row.upper;
-    change += Solve(&row);
-  }
-  return change;
+double Bounded(double value, double lower, double upper) {
+  return value < lower ? lower : value > upper ? upper : value;
 }
 
 // Solves pairs of perpendicular rows whose combined impulse stays within the friction cone.
-double CompactSolver::SolveCones(bool pressed_only, std::vector<Row>* rows) {
-  double change = 0.0;
+// `pressed_only`: like Bullet, keeps the impulse of a rolling friction at contacts without
+// pressure.
+__attribute__((always_inline)) inline void SolveCones(const std::vector<ConstraintRow>& normals,
+                                                      bool pressed_only,
+                                                      std::vector<ConstraintRow>* rows) {
   for (size_t i = 0; i + 1 < rows->size(); i += 2) {
-    Row& first = (*rows)[i];
-    Row& second = (*rows)[i + 1];
-    const double pressed = std::max(0.0, normals_[static_cast<size_t>(first.normal)].impulse);
+    ConstraintRow& first = (*rows)[i];
+    ConstraintRow& second = (*rows)[i + 1];
+    const double pressed = std::max(0.0, normals[static_cast<size_t>(first.normal)].impulse);
     if (pressed_only && pressed == 0.0) continue;
-    const double a = first.impulse + UnboundedChange(first);
-    const double b = second.impulse + UnboundedChange(second);
-    const double length = std::sqrt(a * a + b * b), bound = first.friction * pressed;
-    const double share = length > bound ? bound / length : 1.0;
-    change += Change(share * a - first.impulse, &first);
-    change += Change(share * b - second.impulse, &second);
+    const auto goal = [](const ConstraintRow& row) __attribute__((always_inline)) {
+      const double speed = Speed(row.a) + Speed(row.b);
+      return row.impulse + (row.target - speed) * row.inertia - row.impulse * row.compliance;
+    };
+    const double a = goal(first), b = goal(second);
+    const double bound = first.friction * pressed;
+    const double square = a * a + b * b;
+    const double share = square > bound * bound ? bound / std::sqrt(square) : 1.0;
+    const double change_a = share * a - first.impulse, change_b = share * b - second.impulse;
+    first.impulse = share * a;
+    second.impulse = share * b;
+    if (change_a != 0.0) {
+      Apply(first.a, change_a);
+      Apply(first.b, change_a);
+    }
+    if (change_b != 0.0) {
+      Apply(second.a, change_b);
+      Apply(second.b, change_b);
+    }
   }
-  return change;
 }
 
-btScalar CompactSolver::solveSingleIteration(int iteration, btCollisionObject**, int,
-                                             btPersistentManifold**, int, btTypedConstraint**, int,
-                                             const btContactSolverInfo&, btIDebugDraw*) {
-  double change = 0.0;
-  const bool forwards = iteration % 2 == 1;  // as in Bullet: joints from the last one first
-  for (size_t i = 0; i < joints_.size(); ++i) {
-    change += Solve(&joints_[forwards ? i : joints_.size() - 1 - i]);
-  }
-  for (Row& row : normals_) change += Solve(&row);
-  change += SolveSpins();
-  change += SolveCones(true, &rollings_);
-  change += SolveCones(false, &frictions_);
-  return change;
-}
-
-btScalar CompactSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
-                                                      const btContactSolverInfo& info) {
-  WriteBack(joints_, &m_multiBodyNonContactConstraints);
-  WriteBack(normals_, &m_multiBodyNormalContactConstraints);
-  WriteBack(frictions_, &m_multiBodyFrictionContactConstraints);
-  WriteBack(rollings_, &m_multiBodyTorsionalFrictionContactConstraints);
-  WriteBack(spins_, &m_multiBodySpinningFrictionContactConstraints);
-  for (size_t i = 0; i < before_.size(); ++i) {
-    before_[i] = m_data.m_deltaVelocities[static_cast<int>(i)] - before_[i];
-  }
-  for (const MovedBody& moved : moved_bodies_) {
-    moved.body->applyDeltaVeeMultiDof2(&before_[static_cast<size_t>(moved.first)], 1.0);
-    moved.body->setPosUpdated(false);
-  }
-  return btMultiBodyConstraintSolver::solveGroupCacheFriendlyFinish(bodies, body_count, info);
+__attribute__((always_inline)) inline void Solve(ConstraintRow* row) {
+  const double speed = Speed(row->a) + Speed(row->b);
+  const double impulse =
+      Bounded(row->impulse + (row->target - speed) * row->inertia - row->impulse * row->compliance,
+              row->lower, row->upper);
+  const double change = impulse - row->impulse;
+  if (change == 0.0) return;
+  row->impulse = impulse;
+  Apply(row->a, change);
+  Apply(row->b, change);
 }
 
 }  // namespace
 
-std::unique_ptr<btMultiBodyConstraintSolver> MakeCompactSolver() {
-  return std::make_unique<CompactSolver>();
+CompactSolver::JointRow CompactSolver::RowOf(int link, TreeDynamics* dynamics, double* kept) {
+  JointRow row;
+  const int coordinate = dynamics->Coordinate(link);
+  const Span reach = dynamics->Reach(link);
+  row.velocity = dynamics->velocity() + coordinate;
+  row.changed = dynamics->velocity() + reach.first;
+  row.response = dynamics->InverseInertia(coordinate) + reach.first;
+  row.count = reach.count;
+  const double mobility = dynamics->InverseInertia(coordinate)[coordinate];
+  row.inertia = mobility > std::numeric_limits<double>::epsilon() ? 1.0 / mobility : 0.0;
+  row.impulse = kWarmShare * *kept;
+  row.kept = kept;
+  return row;
+}
+
+void CompactSolver::AddMotor(double dt, TreeDynamics* dynamics, SolverJoint* joint) {
+  const JointMotor& motor = *joint->motor;
+  if (motor.lowest_force == 0.0 && motor.highest_force == 0.0 && motor.damping == 0.0) {
+    joint->motor_impulse = 0.0;
+    return;
+  }
+  JointRow row = RowOf(joint->link, dynamics, &joint->motor_impulse);
+  const MotorRow made = MakeMotorRow(motor, row.inertia, *row.velocity, dt);
+  row.target = made.target;
+  row.inertia = made.inertia;
+  row.compliance = made.compliance;
+  row.lower = made.lower;
+  row.upper = made.upper;
+  joints_.push_back(row);
+}
+
+void CompactSolver::AddLimits(double dt, TreeDynamics* dynamics, SolverJoint* joint) {
+  const double position = dynamics->JointPosition(joint->link);
+  for (const int side : {0, 1}) {
+    const double distance = side == 0 ? position - joint->lower : joint->upper - position;
+    if (distance > 0.0) {
+      joint->limit_impulses[side] = 0.0;
+      continue;
+    }
+    JointRow row = RowOf(joint->link, dynamics, &joint->limit_impulses[side]);
+    row.sign = side == 0 ? 1.0 : -1.0;
+    row.target = distance > -kDeepest ? -distance * kRecovery / dt : 0.0;
+    row.upper = kLargestLimit;
+    joints_.push_back(row);
+  }
+}
+
+void CompactSolver::AddGear(double dt, TreeDynamics* dynamics, SolverJoint* joint) {
+  const double bound = *joint->gear_force * dt;
+  if (bound == 0.0) return;
+  const int stride = dynamics->stride();
+  const int follower = dynamics->Coordinate(joint->link);
+  const int leader = dynamics->Coordinate(joint->leader);
+  double* jacobian = Take(stride);
+  double* response = Take(stride);
+  std::fill_n(jacobian, stride, 0.0);
+  jacobian[follower] = 1.0;
+  jacobian[leader] -= joint->multiplier;
+  for (int i = 0; i < stride; ++i) {
+    response[i] = dynamics->InverseInertia(follower)[i] -
+                  joint->multiplier * dynamics->InverseInertia(leader)[i];
+  }
+  ConstraintRow row;
+  row.a = {jacobian, dynamics->velocity(), response, dynamics->velocity(), stride, stride};
+  const double mobility = Product(jacobian, response, stride);
+  row.inertia = mobility > std::numeric_limits<double>::epsilon() ? 1.0 / mobility : 0.0;
+  const double error = joint->offset + joint->multiplier * dynamics->JointPosition(joint->leader) -
+                       dynamics->JointPosition(joint->link);
+  row.target = error * kRecovery / dt;
+  row.lower = -bound;
+  row.upper = bound;
+  row.impulse = kWarmShare * joint->gear_impulse;
+  gears_.push_back(row);
+  gear_kept_.push_back(&joint->gear_impulse);
+}
+
+void CompactSolver::WarmStart() {
+  for (const JointRow& row : joints_) {
+    const double impulse = row.sign * row.impulse;
+    AddScaled(impulse, row.response, row.count, row.changed);
+  }
+  for (const auto* rows : {&gears_, &normals_}) {
+    for (const ConstraintRow& row : *rows) {
+      Apply(row.a, row.impulse);
+      Apply(row.b, row.impulse);
+    }
+  }
+}
+
+// Runs with the processor's widest vectors. Both versions do the same operations in the same order
+// (none contracts products and sums), so that results do not depend on the processor.
+__attribute__((target_clones("avx2", "default"))) void CompactSolver::Iterate(int iterations) {
+  const auto solve_joint = [](JointRow * row) __attribute__((always_inline)) {
+    const double impulse =
+        Bounded(row->impulse + (row->target - row->sign * *row->velocity) * row->inertia -
+                    row->impulse * row->compliance,
+                row->lower, row->upper);
+    const double change = row->sign * (impulse - row->impulse);
+    row->impulse = impulse;
+    AddScaled(change, row->response, row->count, row->changed);
+  };
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    if (iteration % 2 == 1) {
+      for (JointRow& row : joints_) solve_joint(&row);
+      for (ConstraintRow& row : gears_) Solve(&row);
+    } else {
+      for (size_t i = gears_.size(); i > 0; --i) Solve(&gears_[i - 1]);
+      for (size_t i = joints_.size(); i > 0; --i) solve_joint(&joints_[i - 1]);
+    }
+    for (ConstraintRow& row : normals_) Solve(&row);
+    for (ConstraintRow& row : spins_) {
+      const double pressed = normals_[static_cast<size_t>(row.normal)].impulse;
+      if (pressed <= 0.0) continue;
+      row.upper = row.friction * pressed;
+      row.lower = -row.upper;
+      Solve(&row);
+    }
+    SolveCones(normals_, true, &rollings_);
+    SolveCones(normals_, false, &frictions_);
+  }
+}
+
+void CompactSolver::Step(double dt, int iterations, const Eigen::Vector3d& gravity,
+                         btDispatcher* dispatcher) {
+  joints_.clear();
+  for (auto* rows : {&gears_, &normals_, &frictions_, &rollings_, &spins_}) rows->clear();
+  warm_.clear();
+  gear_kept_.clear();
+  for (const Tree& tree : trees_) {
+    if (tree.asleep) continue;
+    tree.dynamics->UpdatePoses();
+    tree.dynamics->UpdateInverseInertia();
+    tree.dynamics->StepFreely(gravity, dt);
+  }
+  Reserve(dispatcher);
+  for (Tree& tree : trees_) {
+    if (tree.asleep) continue;
+    for (SolverJoint& joint : tree.joints) {
+      AddMotor(dt, tree.dynamics, &joint);
+      if (joint.leader >= 0) AddGear(dt, tree.dynamics, &joint);
+      if (joint.limited) AddLimits(dt, tree.dynamics, &joint);
+    }
+  }
+  for (int i = 0; i < dispatcher->getNumManifolds(); ++i) {
+    AddContacts(dispatcher->getManifoldByIndexInternal(i), dt);
+  }
+  WarmStart();
+  Iterate(iterations);
+  KeepImpulses();
+  for (const Tree& tree : trees_) {
+    if (!tree.asleep) tree.dynamics->Integrate(dt);
+  }
 }
 
 }  // namespace simwright::sim

@@ -17,20 +17,22 @@ class ExclusionFilter::Callback : public btOverlapFilterCallback {
     const auto* one = static_cast<const btCollisionObject*>(a->m_clientObject);
     const auto* other = static_cast<const btCollisionObject*>(b->m_clientObject);
     if (one->getUserIndex() != other->getUserIndex()) return true;
+    if (one->getUserIndex() < 0) return true;
     const auto found = pairs.find(one->getUserIndex());
-    return found == pairs.end() ||
+    return found != pairs.end() &&
            !found->second.contains(std::minmax(one->getUserIndex2(), other->getUserIndex2()));
   }
 
-  std::map<int, std::set<std::pair<int, int>>> pairs;  // by body
+  // The excluded pairs by body, of bodies whose links collide with each other.
+  std::map<int, std::set<std::pair<int, int>>> pairs;
 };
 
 ExclusionFilter::ExclusionFilter() : callback_(std::make_unique<Callback>()) {}
 
 ExclusionFilter::~ExclusionFilter() = default;
 
-void ExclusionFilter::Exclude(int body, const std::set<std::pair<int, int>>& pairs) {
-  if (!pairs.empty()) callback_->pairs[body] = pairs;
+void ExclusionFilter::AllowSelfContacts(int body, const std::set<std::pair<int, int>>& except) {
+  callback_->pairs[body] = except;
 }
 
 btOverlapFilterCallback* ExclusionFilter::callback() {

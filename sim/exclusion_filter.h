@@ -8,8 +8,10 @@ struct btOverlapFilterCallback;
 
 namespace simwright::sim {
 
-// Filters pairs of links that do not collide with each other: Bullet's link colliders ignore their
-// own exclusion lists. Colliders hold the indices of their body and link.
+// Filters pairs of links that do not collide with each other, before Bullet keeps them as pairs:
+// the links of one body, unless it has self-contacts. Bullet's link colliders ignore their own
+// exclusion lists, and it asks about each link of a body in each step. Colliders hold the indices
+// of their body and link.
 class ExclusionFilter {
  public:
   ExclusionFilter();
@@ -17,8 +19,8 @@ class ExclusionFilter {
   ExclusionFilter(const ExclusionFilter&) = delete;
   ExclusionFilter& operator=(const ExclusionFilter&) = delete;
 
-  // Disables the contacts of pairs of links of one body, the lesser index first.
-  void Exclude(int body, const std::set<std::pair<int, int>>& pairs);
+  // Enables the contacts of links of one body, except those of some pairs, the lesser index first.
+  void AllowSelfContacts(int body, const std::set<std::pair<int, int>>& except);
   // Returns the callback for Bullet's pair cache; the filter owns it.
   btOverlapFilterCallback* callback();
 

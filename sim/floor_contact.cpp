@@ -93,6 +93,7 @@ void ShapeOnPlane::processCollision(const btCollisionObjectWrapper* first,
   result->setPersistentManifold(manifold_);
   result->refreshContactPoints();
   const double reach = manifold_->getContactBreakingThreshold();
+  if (plane.Height(btVector3(0, 0, 0)) - shape.floor_radius() > reach) return;
   const double lowest = Lowest(shape.floor_points(), plane);
   if (lowest > reach) return;
   if (manifold_->getNumContacts() >= 3 && lowest > DeepestOf(*manifold_) - kKeep) return;

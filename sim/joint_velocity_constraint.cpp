@@ -1,7 +1,5 @@
 #include "sim/joint_velocity_constraint.h"
 
-#include <limits>
-
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -24,13 +22,7 @@ int VelocityIndex(btMultiBody* body, int numbers, btMultiBodyJacobianData* data)
 
 class JointVelocityConstraint::Row : public btMultiBodyConstraint {
  public:
-  Row(btMultiBody* body, int link, double damping);
-
-  void SetTarget(double velocity, double lowest_force, double highest_force) {
-    velocity_ = velocity;
-    lowest_ = lowest_force;
-    highest_ = highest_force;
-  }
+  Row(btMultiBody* body, int link, const JointMotor* drive);
 
   void finalizeMultiDof() override;
   int getIslandIdA() const override { return IslandOf(m_linkA); }
@@ -41,18 +33,15 @@ class JointVelocityConstraint::Row : public btMultiBodyConstraint {
 
  private:
   void Fill(double dt, btMultiBodyJacobianData* data, btMultiBodySolverConstraint* row) const;
-  void AddDamping(double dt, btMultiBodySolverConstraint* row) const;
   int IslandOf(int link) const;
 
-  double velocity_ = 0.0;
-  double lowest_ = 0.0, highest_ = 0.0;  // N m or N
-  double damping_ = 0.0;                 // N m s/rad or N s/m
+  const JointMotor& drive_;
 };
 
-JointVelocityConstraint::Row::Row(btMultiBody* body, int link, double damping)
+JointVelocityConstraint::Row::Row(btMultiBody* body, int link, const JointMotor* drive)
     : btMultiBodyConstraint(body, nullptr, link, body->getLink(link).m_parent, 1, true,
                             MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR),
-      damping_(damping) {}
+      drive_(*drive) {}
 
 void JointVelocityConstraint::Row::finalizeMultiDof() {
   allocateJacobiansMultiDof();
@@ -64,10 +53,9 @@ void JointVelocityConstraint::Row::createConstraintRows(btMultiBodyConstraintArr
                                                         btMultiBodyJacobianData& data,
                                                         const btContactSolverInfo& info) {
   if (m_numDofsFinalized != m_jacSizeBoth) finalizeMultiDof();
-  if (lowest_ == 0.0 && highest_ == 0.0 && damping_ == 0.0) return;
+  if (drive_.lowest_force == 0.0 && drive_.highest_force == 0.0 && drive_.damping == 0.0) return;
   btMultiBodySolverConstraint& row = rows.expandNonInitializing();
   Fill(info.m_timeStep, &data, &row);
-  if (damping_ > 0.0) AddDamping(info.m_timeStep, &row);
 }
 
 // Does the same as btMultiBodyConstraint::fillMultiBodyConstraint for one side. Bullet's own motors
@@ -88,40 +76,20 @@ void JointVelocityConstraint::Row::Fill(double dt, btMultiBodyJacobianData* data
   m_bodyA->calcAccelerationDeltasMultiDof(&data->m_jacobians[row->m_jacAindex], response,
                                           data->scratch_r, data->scratch_v);
   const double inertia = response[own] > SIMD_EPSILON ? 1.0 / response[own] : 0.0;
-  row->m_jacDiagABInv = inertia;
-  row->m_rhs = (velocity_ - m_bodyA->getVelocityVector()[own]) * inertia;
-  row->m_cfm = row->m_rhsPenetration = row->m_friction = 0.0;
+  const double velocity = m_bodyA->getVelocityVector()[own];
+  const MotorRow drive = MakeMotorRow(drive_, inertia, velocity, dt);
+  row->m_jacDiagABInv = drive.inertia;
+  row->m_rhs = (drive.target - velocity) * drive.inertia;
+  row->m_cfm = drive.compliance;
+  row->m_rhsPenetration = row->m_friction = 0.0;
   row->m_appliedImpulse = row->m_appliedPushImpulse = 0.0;
-  row->m_lowerLimit = lowest_ * dt;
-  row->m_upperLimit = highest_ * dt;
+  row->m_lowerLimit = drive.lower;
+  row->m_upperLimit = drive.upper;
   const btVector3 none(0, 0, 0);
   row->m_contactNormal1 = row->m_contactNormal2 = none;
   row->m_relpos1CrossNormal = row->m_relpos2CrossNormal = none;
   row->m_orgConstraint = const_cast<Row*>(this);  // Bullet writes the impulse back
   row->m_orgDofIndex = 0;
-}
-
-// Adds the damper. The impulse is force dt - damping dt v, with v after the step. Either the target
-// velocity is reached (a hard row whose bounds give the damper its share), or the force is at a
-// bound (a compliant row); the velocity without this row decides which.
-void JointVelocityConstraint::Row::AddDamping(double dt, btMultiBodySolverConstraint* row) const {
-  const double inertia = row->m_jacDiagABInv;  // effective, at the joint
-  const double without = velocity_ - row->m_rhs / inertia;
-  const double share = damping_ * dt * velocity_;
-  const double needed = inertia * (velocity_ - without) + share;
-  if (needed >= lowest_ * dt && needed <= highest_ * dt) {
-    row->m_lowerLimit = lowest_ * dt - share;
-    row->m_upperLimit = highest_ * dt - share;
-    return;
-  }
-  const double bound = (needed > 0.0 ? highest_ : lowest_) * dt;
-  const double compliance = 1.0 / (damping_ * dt);
-  const double soft = inertia / (1.0 + inertia * compliance);
-  row->m_rhs = (bound * compliance - without) * soft;
-  row->m_jacDiagABInv = soft;
-  row->m_cfm = compliance * soft;
-  row->m_lowerLimit = -std::numeric_limits<float>::max();
-  row->m_upperLimit = std::numeric_limits<float>::max();
 }
 
 int JointVelocityConstraint::Row::IslandOf(int link) const {
@@ -130,15 +98,11 @@ int JointVelocityConstraint::Row::IslandOf(int link) const {
   return collider == nullptr ? -1 : collider->getIslandTag();
 }
 
-JointVelocityConstraint::JointVelocityConstraint(btMultiBody* body, int link, double damping)
-    : row_(std::make_unique<Row>(body, link, damping)) {}
+JointVelocityConstraint::JointVelocityConstraint(btMultiBody* body, int link,
+                                                 const JointMotor* drive)
+    : row_(std::make_unique<Row>(body, link, drive)) {}
 
 JointVelocityConstraint::~JointVelocityConstraint() = default;
-
-void JointVelocityConstraint::SetTarget(double velocity, double lowest_force,
-                                        double highest_force) {
-  row_->SetTarget(velocity, lowest_force, highest_force);
-}
 
 btMultiBodyConstraint* JointVelocityConstraint::constraint() const {
   return row_.get();

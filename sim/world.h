@@ -24,9 +24,13 @@ struct WorldOptions {
   // infinite bound, each part of all objects on a table is tested against the floor in each step.
   // Drop tests keep that: another contact order may end in another resting pose.
   double floor_reach = 1e9;
-  // ArticulatedWorld only: iterates with CompactSolver instead of Bullet's solver, which serves as
-  // its reference in tests.
+  // ArticulatedWorld only: steps with CompactSolver instead of Bullet's dynamics and solver, which
+  // serve as its reference in tests.
   bool compact_solver = true;
+  // ArticulatedWorld with CompactSolver only: a body that has been still for 0.2 s keeps its pose
+  // until something that moves or is driven comes within 4 cm. For training; a check of a body's
+  // drift needs it awake.
+  bool sleeping = false;
 };
 
 // A Bullet world in double precision with the floor z = 0. One thread per world; worlds share no

@@ -20,6 +20,7 @@ sim::WorldOptions WorldOptionsOf(const SkillOptions& options, int iterations) {
   sim::WorldOptions world;
   world.time_step = 1.0 / (options.control_rate * options.substeps);
   world.solver_iterations = iterations;
+  world.sleeping = true;
   return world;
 }
 

@@ -1,11 +1,12 @@
 // Measures the speed of training worlds: the Panda, a microwave with its door and knobs, a cup.
-//   bench_environment_speed [--repeats N]
+//   bench_environment_speed [--repeats N] [--part memory|physics|environments|learning]
+//   bench_environment_speed --mjcf FILE         writes the bodies for bench/peers/training_world.py
 // Control steps (60 Hz, 4 substeps) per second of 64 environments on one and two threads, with
 // random actions as an untrained policy samples them, and with the gripper closed on the door's
 // handle; with PPO and the default networks; the effect of each setting; resident memory; and
-// physics steps (240 Hz) per second of the same scene in Bullet as in training, in Bullet without
-// each of the optimizations, and in MuJoCo. Each figure is the best of the repeats, with the
-// variants interleaved.
+// physics steps (240 Hz) per second of a core of the same scene in Bullet as in training, in Bullet
+// without each of the optimizations, and in MuJoCo. Each figure is the best of the repeats, with
+// the variants interleaved.
 #include <malloc.h>
 #include <unistd.h>
 
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include "bench/rl/training_scene.h"
+#include "core/files.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "geometry/convex_hull.h"
@@ -205,9 +207,10 @@ struct PhysicsVariant {
   double time = 0.0, best = 0.0;     // steps/s
 };
 
-PhysicsVariant InBullet(const std::string& name, const Bodies& bodies, int iterations,
-                        bool compact) {
+PhysicsVariant InBullet(const std::string& name, const Bodies& bodies, int iterations, bool compact,
+                        bool sleeping = false) {
   sim::WorldOptions options;
+  options.sleeping = sleeping;
   options.solver_iterations = iterations;
   options.compact_solver = compact;
   auto world = std::make_shared<sim::ArticulatedWorld>(options);
@@ -227,15 +230,21 @@ PhysicsVariant InBullet(const std::string& name, const Bodies& bodies, int itera
           }};
 }
 
-PhysicsVariant InMujoco(const Bodies& bodies, double time_step) {
-  const robot::RobotModel& panda = robot::Panda(false);
+// The bodies for MuJoCo, in the order robot, microwave, cup.
+std::vector<sim::MujocoPlacement> MujocoPlacements(const Bodies& bodies) {
   sim::MujocoPlacement robot{&bodies.robot}, microwave{&bodies.microwave}, cup{&bodies.cup};
-  for (const auto& limits : panda.limits) robot.motor_forces.push_back(limits.effort);
+  for (const auto& limits : robot::Panda(false).limits) {
+    robot.motor_forces.push_back(limits.effort);
+  }
   microwave.world_from_root = bodies.world_from_microwave;
   cup.world_from_root = bodies.world_from_cup;
   cup.fixed = false;
-  auto world = std::make_shared<sim::MujocoBodies>(
-      std::vector<sim::MujocoPlacement>{robot, microwave, cup}, time_step);
+  return {robot, microwave, cup};
+}
+
+PhysicsVariant InMujoco(const Bodies& bodies, double time_step) {
+  const robot::RobotModel& panda = robot::Panda(false);
+  auto world = std::make_shared<sim::MujocoBodies>(MujocoPlacements(bodies), time_step);
   for (size_t j = 0; j < panda.arm_joints.size(); ++j) {
     world->SetPosition(0, panda.arm_joints[j], panda.home()[static_cast<Eigen::Index>(j)]);
   }
@@ -249,6 +258,25 @@ PhysicsVariant InMujoco(const Bodies& bodies, double time_step) {
           }};
 }
 
+// Writes the bodies as MJCF, with the home position of each motor's joint as the numeric "home".
+void WriteMjcf(const skills::SkillSubtask& scene, const std::string& path) {
+  const robot::RobotModel& panda = robot::Panda(false);
+  const Bodies bodies = BodiesOf(scene, true, true);
+  std::string text = sim::BodiesMjcf(MujocoPlacements(bodies),
+                                     {.time_step = sim::WorldOptions().time_step, .floor = true});
+  std::string home;
+  for (size_t j = 0; j < panda.limits.size(); ++j) {
+    if (!(panda.limits[j].effort > 0.0)) continue;
+    const auto& arm = panda.arm_joints;
+    const auto found = std::find(arm.begin(), arm.end(), static_cast<int>(j)) - arm.begin();
+    const bool in_arm = found < static_cast<std::ptrdiff_t>(arm.size());
+    home += std::to_string(in_arm ? panda.home()[found] : panda.gripper.open) + " ";
+  }
+  text.insert(text.rfind("</mujoco>"),
+              "<custom><numeric name=\"home\" data=\"" + home + "\"/></custom>");
+  core::WriteFile(path, text);
+}
+
 void MeasurePhysics(const skills::SkillSubtask& scene, int repeats) {
   const Bodies bodies = BodiesOf(scene, true, true);
   const Bodies without_capsules = BodiesOf(scene, false, true);
@@ -257,6 +285,7 @@ void MeasurePhysics(const skills::SkillSubtask& scene, int repeats) {
   std::vector<PhysicsVariant> variants = {
       InBullet("Bullet, 4 iterations (no contacts)", bodies, 4, true),
       InBullet("Bullet, 20 iterations", bodies, 20, true),
+      InBullet("20, bodies at rest asleep as in training", bodies, 20, true, true),
       InBullet("20, Bullet's own solver", bodies, 20, false),
       InBullet("20, arm of convex hulls instead of capsules", without_capsules, 20, true),
       InBullet("20, cup of parts instead of its convex hull", in_parts, 20, true),
@@ -267,12 +296,13 @@ void MeasurePhysics(const skills::SkillSubtask& scene, int repeats) {
     for (PhysicsVariant& variant : variants) {
       const int settle = repeat == 0 ? kSettle : 0;
       for (int i = 0; i < settle; ++i) variant.step(variant.time += time_step);
-      const double start = Now();
+      const double start = ProcessorSeconds();
       for (int i = 0; i < kPhysicsSteps; ++i) variant.step(variant.time += time_step);
-      variant.best = std::max(variant.best, kPhysicsSteps / (Now() - start));
+      variant.best = std::max(variant.best, kPhysicsSteps / (ProcessorSeconds() - start));
     }
   }
-  std::printf("\n| physics alone, one thread | steps/s of 240 Hz |\n|---|---|\n");
+  std::printf(
+      "\n| physics alone, one thread | steps/s of 240 Hz per second of the core |\n|---|---|\n");
   for (const PhysicsVariant& variant : variants) {
     std::printf("| %s | %.0f |\n", variant.name.c_str(), variant.best);
   }
@@ -283,12 +313,20 @@ void MeasurePhysics(const skills::SkillSubtask& scene, int repeats) {
 
 int main(int argc, char** argv) {
   int repeats = 5;
+  std::string part, mjcf;  // empty: all; none
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::string(argv[i]) == "--repeats") repeats = std::atoi(argv[i + 1]);
+    if (std::string(argv[i]) == "--part") part = argv[i + 1];
+    if (std::string(argv[i]) == "--mjcf") mjcf = argv[i + 1];
   }
+  const auto chosen = [&](const char* name) { return part.empty() || part == name; };
   const simwright::skills::SkillSubtask scene = simwright::MicrowaveAndCup();
-  simwright::MeasureMemory(scene);
-  simwright::MeasurePhysics(scene, repeats);
-  simwright::MeasureEnvironments(scene, repeats);
-  simwright::MeasurePpo(scene, repeats);
+  if (!mjcf.empty()) {
+    simwright::WriteMjcf(scene, mjcf);
+    return 0;
+  }
+  if (chosen("memory")) simwright::MeasureMemory(scene);
+  if (chosen("physics")) simwright::MeasurePhysics(scene, repeats);
+  if (chosen("environments")) simwright::MeasureEnvironments(scene, repeats);
+  if (chosen("learning")) simwright::MeasurePpo(scene, repeats);
 }

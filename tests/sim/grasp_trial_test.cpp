@@ -53,7 +53,8 @@ TEST_P(GraspTrialTest, HoldsUpToTheFrictionLimit) {
     const GraspTrialResult result = trials.Run(FromAbove(0.03));
     EXPECT_TRUE(result.closed) << result.reason;
     EXPECT_EQ(result.held, share > 1.0) << share << ": " << result.reason;
-    EXPECT_NEAR(result.width, 0.04, 5e-4);
+    // A box that slips turns between the fingers.
+    EXPECT_NEAR(result.width, 0.04, share > 1.0 ? 5e-4 : 1e-3);
   }
 }
 
