@@ -1,4 +1,4 @@
-"""Measures the physics steps per second of a core in the training world of bench_environment_speed in MuJoCo 4.
+"""Measures MuJoCo 4 on the training world of bench_environment_speed: steps per second of a core.
 
     build/bin/bench_environment_speed --mjcf world.xml
     .venv-peers/bin/python bench/peers/training_world.py world.xml [--repeats 6]

@@ -149,20 +149,22 @@ void MeasurePpo(const skills::SkillSubtask& scene, int repeats) {
   const rl::PpoOptions options;
   rl::Ppo ppo(&environment, options);
   std::vector<rl::Outcome> outcomes;
-  double collect = 1e9, update = 1e9;
+  double collect = 1e9, update = 1e9, processor = 1e9;
   for (int i = 0; i < repeats; ++i) {
-    const double start = Now();
+    const double start = Now(), processor_start = ProcessorSeconds();
     ppo.Collect(&outcomes);
     const double middle = Now();
     ppo.Update();
     collect = std::min(collect, middle - start);
     update = std::min(update, Now() - middle);
+    processor = std::min(processor, ProcessorSeconds() - processor_start);
   }
   const int control = environment.skill().options.control_steps * options.horizon * kEnvironments;
   std::printf(
       "\nwith PPO (256-128-64, %d epochs), 2 threads: %.0f control steps/s, of which the "
-      "learner takes %.0f %%\n",
-      options.epochs, control / (collect + update), 100.0 * update / (collect + update));
+      "learner takes %.0f %%; %.0f us of a core per step\n",
+      options.epochs, control / (collect + update), 100.0 * update / (collect + update),
+      1e6 * processor / control);
 }
 
 // The scene's bodies as in training.
