@@ -10,9 +10,11 @@
 namespace simwright::sim {
 namespace {
 
-constexpr double kWarmShare = 0.85;      // of the last step's impulse
-constexpr double kRecovery = 0.2;        // the share of a position error that one step corrects
-constexpr double kDeepest = 0.04;        // rad or m: Bullet does not correct a deeper limit
+constexpr double kWarmShare = 0.85;  // of the last step's impulse
+constexpr double kRecovery = 0.2;    // the share of a position error that one step corrects
+// rad or m: a joint that is farther beyond its limit returns no faster. Bullet leaves it there, so
+// that a knob that strong fingers forced past its stop stays outside of its range.
+constexpr double kDeepest = 0.04;
 constexpr double kLargestLimit = 100.0;  // N m s or N s, the impulse of a joint limit
 
 double Bounded(double value, double lower, double upper) {
@@ -107,7 +109,7 @@ void CompactSolver::AddLimits(double dt, TreeDynamics* dynamics, SolverJoint* jo
     }
     JointRow row = RowOf(joint->link, dynamics, &joint->limit_impulses[side]);
     row.sign = side == 0 ? 1.0 : -1.0;
-    row.target = distance > -kDeepest ? -distance * kRecovery / dt : 0.0;
+    row.target = std::min(-distance, kDeepest) * kRecovery / dt;
     row.upper = kLargestLimit;
     joints_.push_back(row);
   }

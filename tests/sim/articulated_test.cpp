@@ -1,6 +1,7 @@
 // Articulated bodies against analytic mechanics, and Bullet against MuJoCo.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -74,6 +75,23 @@ struct Rigs {
   ArticulatedBody body;
   std::unique_ptr<JointRig> bullet, mujoco;
 };
+
+// Strong fingers can force a small knob past its stop.
+TEST(Articulated, AJointFarBeyondItsLimitReturns) {
+  const ArticulatedBody body = ArticulatedBodyFrom(assets::ModelOf(
+      OneJoint(JointType::kRevolute, Eigen::Vector3d::UnitZ(), {0.1, 0, 0}, 0.0, 0.5)));
+  ArticulatedWorld world;
+  const int arm = world.Add(body);
+  world.SetPosition(arm, 0, 3.5);
+  double fastest = 0.0;  // rad/s
+  for (int i = 0; i < 240; ++i) {
+    world.Step();
+    fastest = std::max(fastest, std::abs(world.Velocity(arm, 0)));
+  }
+  EXPECT_LT(world.Position(arm, 0), 3.01);
+  EXPECT_GT(world.Position(arm, 0), 2.5);
+  EXPECT_LT(fastest, 2.0);
+}
 
 // T = 2 pi sqrt(I / (m g l)) for small swings about the pivot.
 TEST(Articulated, APendulumSwingsWithItsPeriodInBothEngines) {
