@@ -7,6 +7,13 @@
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 
+// Compiles a function for AVX2 too; the program's start chooses. Sanitizers do without.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define SIMWRIGHT_WIDEST_VECTORS __attribute__((target_clones("avx2", "default")))
+#else
+#define SIMWRIGHT_WIDEST_VECTORS
+#endif
+
 namespace simwright::sim {
 namespace {
 
@@ -159,7 +166,7 @@ void CompactSolver::WarmStart() {
 
 // Runs with the processor's widest vectors. Both versions do the same operations in the same order
 // (none contracts products and sums), so that results do not depend on the processor.
-__attribute__((target_clones("avx2", "default"))) void CompactSolver::Iterate(int iterations) {
+SIMWRIGHT_WIDEST_VECTORS void CompactSolver::Iterate(int iterations) {
   const auto solve_joint = [](JointRow * row) __attribute__((always_inline)) {
     const double impulse =
         Bounded(row->impulse + (row->target - row->sign * *row->velocity) * row->inertia -

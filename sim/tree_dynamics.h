@@ -26,7 +26,6 @@ class TreeDynamics {
 
   int size() const { return size_; }      // n
   int stride() const { return stride_; }  // n padded
-  bool has_free_root() const { return free_; }
 
   // Computes the links' poses if a position differs by more than 1e-12 from that of the last call;
   // returns true if so.
