@@ -138,12 +138,14 @@ void UseGivenParts(const BuildRequest& request, assets::Asset* asset) {
 }
 
 void DecomposeIntoParts(const BuildRequest& request, assets::Asset* asset) {
-  geometry::DecompositionOptions options = request.decomposition;
+  geometry::DecompositionOptions options = Limited(request.decomposition, request.budget);
   options.max_hull_vertices -= kSupportCorners;
   const geometry::ConvexDecomposition decomposition = geometry::Decompose(asset->solid, options);
   asset->parts = geometry::Hulls(decomposition);
   asset->concavity = decomposition.concavity;
   asset->coverage = decomposition.coverage;
+  ReportBinding(asset->solid, options, request.budget, decomposition, asset->name,
+                &asset->findings);
 }
 
 // Rotates the asset and moves it so that it stands centred on z = 0.
@@ -176,7 +178,7 @@ void PlaceInRestPose(const BuildRequest& request, assets::Asset* asset) {
     if (request.parts.empty()) {
       PreserveSupportFace(
           FindSupportPolygon(asset->solid, asset->inertial.center_of_mass, kSupportCorners),
-          request.decomposition.max_hull_vertices, &asset->parts);
+          Limited(request.decomposition, request.budget).max_hull_vertices, &asset->parts);
     }
     rest = FindRestPose(sim::BodyFromAsset(*asset), asset->solid);
     PlaceInLinkFrame(rest.turn, asset);

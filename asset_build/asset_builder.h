@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "asset_build/part_budget.h"
 #include "assets/asset.h"
 #include "core/progress.h"
 #include "geometry/convex_decomposition.h"
@@ -26,6 +27,7 @@ struct BuildRequest {
   std::uint64_t seed = 1;
   geometry::SolidOptions solid;
   geometry::DecompositionOptions decomposition;
+  PartBudget budget;  // by the user; takes precedence over `decomposition`
   // The collision parts, used unchanged: closed, convex, at most decomposition.max_hull_vertices
   // vertices each, in the mesh's frame. Empty: computed by convex decomposition.
   std::vector<core::TriangleMesh> parts;

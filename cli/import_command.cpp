@@ -121,6 +121,7 @@ int Import(ImportFlags flags, const CommonOptions& common) {
   }
   asset_build::Validate(flags.options.size);
   Validate(flags.options.stated);
+  Validate(flags.options.budget);
   if (!flags.options.category.empty()) physics_params::RequireCategory(flags.options.category);
   core::Progress progress(common.ProgressStyle());
   const std::vector<workflows::ImportItem> items =
@@ -167,6 +168,7 @@ void AddImport(CLI::App* app, CommonOptions* common, Run* run) {
       ->check(Positive())
       ->default_str("from the unit");
   AddStatedOptions(command, &flags->options.size, &flags->options.stated);
+  AddPartOptions(command, &flags->options.budget);
   command->get_option("--height")->excludes("--size");
   command
       ->add_option("--only", flags->options.only,

@@ -92,8 +92,9 @@ void RequireNoneUnused(const LiftFlags& flags, const std::string& photos, bool h
 
 workflows::MatLiftRequest MatRequest(const LiftFlags& flags) {
   const workflows::LiftRequest& one = flags.request;
-  workflows::MatLiftRequest request{flags.photos, one.category, flags.flipped, 0.1,      one.size,
-                                    one.stated,   one.seed,     one.output,    one.force};
+  workflows::MatLiftRequest request{flags.photos, one.category, flags.flipped, 0.1,
+                                    one.size,     one.stated,   one.budget,    one.seed,
+                                    one.output,   one.force};
   if (flags.ruler > 0.0) request.ruler = 0.001 * flags.ruler;
   RequireNoneUnused(flags, "photos on a mat", false, true);
   return request;
@@ -108,8 +109,8 @@ void RequireMatForFlipped(const LiftFlags& flags) {
 workflows::TableLiftRequest TableRequest(const LiftFlags& flags) {
   RequireNoneUnused(flags, "photos of one object without a mat", true, false);
   const workflows::LiftRequest& one = flags.request;
-  return {flags.photos, one.category, one.height, one.size,
-          one.stated,   one.seed,     one.output, one.force};
+  return {flags.photos, one.category, one.height, one.size, one.stated,
+          one.budget,   one.seed,     one.output, one.force};
 }
 
 // Frames of videos that take the place of photos.
@@ -196,8 +197,8 @@ workflows::MultiLiftRequest CamerasRequest(const LiftFlags& flags) {
   if (flags.request.segmenter) throw core::Error("--segmenter is not used with --cameras");
   if (flags.shape == "fitted") throw core::Error("--shape fitted is not used with --cameras");
   const workflows::LiftRequest& one = flags.request;
-  return {flags.photos, flags.cameras, one.category, one.height, one.size,
-          one.stated,   one.effort,    one.seed,     one.output, one.force};
+  return {flags.photos, flags.cameras, one.category, one.height, one.size, one.stated,
+          one.budget,   one.effort,    one.seed,     one.output, one.force};
 }
 
 // Lifts each photo to an asset of its own.
@@ -215,6 +216,7 @@ void LiftEach(LiftFlags flags, LiftPrinter* printer, core::Progress* progress) {
 int Lift(LiftFlags flags, const CommonOptions& common) {
   asset_build::Validate(flags.request.size);
   Validate(flags.request.stated);
+  Validate(flags.request.budget);
   core::Progress progress(common.ProgressStyle());
   LiftPrinter printer(common);
   ApplyFlags(common, &flags);
@@ -282,6 +284,7 @@ void AddLift(CLI::App* app, CommonOptions* common, Run* run) {
       ->check(Positive())
       ->default_str("sampled from the category");
   AddStatedOptions(command, &flags->request.size, &flags->request.stated);
+  AddPartOptions(command, &flags->request.budget);
   command->get_option("--height")->excludes("--size");
   command->add_option("--cameras", flags->cameras,
                       "JSON with the cameras of several photos of one object (docs/formats.md)");

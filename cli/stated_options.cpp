@@ -45,4 +45,27 @@ void AddStatedOptions(CLI::App* command, asset_build::StatedSize* size,
       ->default_str("from the material");
 }
 
+void AddPartOptions(CLI::App* command, asset_build::PartBudget* budget) {
+  command
+      ->add_option("--max-parts", budget->max_parts,
+                   "The maximum number of collision parts, of each link of an articulated asset")
+      ->check(CLI::Range(1, asset_build::kMostParts))
+      ->default_str("as many as the precision takes");
+  command
+      ->add_option("--max-vertices", budget->max_vertices,
+                   "The maximum number of vertices of a collision part")
+      ->check(CLI::Range(asset_build::kLeastVertices, asset_build::kMostVertices))
+      ->default_str("64");
+  command
+      ->add_option("--max-faces", budget->max_faces,
+                   "The maximum number of triangles of a collision part")
+      ->check(CLI::Range(asset_build::kLeastFaces, 2 * asset_build::kMostVertices - 4))
+      ->default_str("as many as the vertices allow");
+  command
+      ->add_option("--part-tolerance", budget->tolerance,
+                   "The largest distance by which a collision part may deviate from the solid, m")
+      ->check(Positive())
+      ->default_str("a fortieth of the longest side");
+}
+
 }  // namespace simwright::cli

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/progress.h"
 #include "geometry/concavity.h"
 #include "geometry/convex_hull.h"
@@ -20,16 +23,32 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostParts = 256;
+constexpr int kFewestVertices = 16;    // of a simplified hull
 constexpr int kSearchFaces = 3000;     // faces of the simplified solid on which cuts are searched
 constexpr double kSearchError = 2e-3;  // of the diagonal: its largest deviation
 constexpr int kSolidSamples = 4000;
+constexpr int kFewEvaluations = 30;    // hulls measured per part, to improve every attempt
+constexpr int kManyEvaluations = 150;  // and the best one
+constexpr int kFewParts = 8;           // fewer parts than these get as many evaluations
+constexpr std::size_t kImproved = 1;   // attempts per cutting, least concave first
+constexpr std::size_t kFinalists = 1;  // attempts that are improved further; more found no better
+constexpr double kProtrusion = 1e-2;   // of the diagonal: accepted of a simplified hull
 constexpr double kUncovered = 1e-4;  // of the diagonal: a vertex farther outside enlarges the hull
+
+// Returns the vertices of a closed triangle mesh without holes that has so many faces (Euler).
+int VerticesWithFaces(int faces) {
+  return (faces + 4) / 2;
+}
 
 void RequireOptions(const DecompositionOptions& options) {
   const bool good = options.threshold > 0.0 && options.threshold <= 2.0 && options.max_parts >= 0 &&
-                    options.max_hull_vertices >= 16 && options.candidates >= 1 &&
-                    options.beam >= 1 && options.depth >= 1 && options.depth <= 4 &&
-                    options.min_thickness > 0.0 && options.min_thickness < 0.1;
+                    options.max_hull_vertices >= kFewestVertices &&
+                    (options.max_hull_faces == 0 ||
+                     VerticesWithFaces(options.max_hull_faces) >= kFewestVertices) &&
+                    options.tolerance >= 0.0 && std::isfinite(options.tolerance) &&
+                    options.candidates >= 1 && options.beam >= 1 && options.depth >= 1 &&
+                    options.depth <= 4 && options.min_thickness > 0.0 &&
+                    options.min_thickness < 0.1;
   if (!good) throw core::Error("a decomposition option is out of range", "convex decomposition");
 }
 
@@ -54,71 +73,171 @@ void MeasureConcavity(const CutContext& context, Piece* piece) {
       context.fit->Concavity(piece->hull, piece->volume, std::numeric_limits<double>::infinity());
 }
 
+// A decomposition by cuts: the finest pieces, and coarser ones that were cut further.
+struct Cutting {
+  std::vector<Piece> cells;                // the finest pieces
+  std::vector<std::vector<Piece>> stages;  // at ascending numbers of pieces, with their cells
+};
+
+using Cutter = std::vector<Piece> (*)(const Piece&, const CutContext&);
+
 // Cuts the most concave piece repeatedly until all pieces meet the threshold or their number
-// reaches the last of `limits` (ascending). Returns the pieces at each limit; limits that were not
-// reached share one final stage.
-std::vector<std::vector<Piece>> CutRepeatedly(const core::TriangleMesh& solid, double threshold,
-                                              const std::vector<int>& limits,
-                                              const CutContext& context) {
-  std::vector<Piece> pieces, done;
+// reaches the last of `limits` (ascending), and keeps the pieces at each limit; limits that were
+// not reached share one final stage.
+Cutting CutRepeatedly(const core::TriangleMesh& solid, double threshold,
+                      const std::vector<int>& limits, const CutContext& context, Cutter cutter) {
+  std::vector<Piece> nodes;  // all pieces; those of one cut follow their parent
+  std::vector<int> parent, open, done;
+  const auto add = [&](Piece piece, int from) {
+    MeasureConcavity(context, &piece);
+    open.push_back(static_cast<int>(nodes.size()));
+    nodes.push_back(std::move(piece));
+    parent.push_back(from);
+  };
   for (core::TriangleMesh& body : ConnectedBodies(solid)) {
-    pieces.push_back(MakePiece(std::move(body), context));
-    MeasureConcavity(context, &pieces.back());
+    add(MakePiece(std::move(body), context), -1);
   }
-  std::vector<std::vector<Piece>> stages;
+  std::vector<std::vector<int>> stages;
   const auto keep = [&] {
     stages.push_back(done);
-    stages.back().insert(stages.back().end(), pieces.begin(), pieces.end());
-    for (Piece& piece : stages.back()) piece.mesh = {};  // merging needs the hulls only
+    stages.back().insert(stages.back().end(), open.begin(), open.end());
   };
   std::size_t limit = 0;
-  while (!pieces.empty()) {
+  while (!open.empty()) {
     core::CheckCancelled();
-    while (limit < limits.size() &&
-           static_cast<int>(pieces.size() + done.size()) >= limits[limit]) {
+    while (limit < limits.size() && static_cast<int>(open.size() + done.size()) >= limits[limit]) {
       if (++limit < limits.size()) keep();
     }
     if (limit == limits.size()) break;
-    const auto worst =
-        std::max_element(pieces.begin(), pieces.end(),
-                         [](const Piece& a, const Piece& b) { return a.concavity < b.concavity; });
-    Piece piece = std::move(*worst);
-    pieces.erase(worst);
+    const auto worst = std::max_element(open.begin(), open.end(), [&](int a, int b) {
+      return nodes[a].concavity < nodes[b].concavity;
+    });
+    const int node = *worst;
+    open.erase(worst);
     std::vector<Piece> cut;
-    if (piece.concavity > threshold) cut = BestCut(piece, context);
-    if (cut.empty()) {
-      done.push_back(std::move(piece));
-      continue;
-    }
-    for (Piece& p : cut) {
-      MeasureConcavity(context, &p);
-      pieces.push_back(std::move(p));
-    }
+    if (nodes[node].concavity > threshold) cut = cutter(nodes[node], context);
+    if (cut.empty()) done.push_back(node);
+    for (Piece& piece : cut) add(std::move(piece), node);
   }
   keep();
-  return stages;
+
+  Cutting cutting;
+  for (const int leaf : stages.back()) {
+    for (int node = leaf; node >= 0; node = parent[node]) {
+      nodes[node].cells.push_back(static_cast<int>(cutting.cells.size()));
+    }
+    cutting.cells.push_back(nodes[leaf]);
+  }
+  for (const std::vector<int>& stage : stages) {
+    cutting.stages.emplace_back();
+    for (const int node : stage) {
+      Piece piece = nodes[node];
+      piece.mesh = {};  // merging needs the hulls only
+      cutting.stages.back().push_back(std::move(piece));
+    }
+  }
+  return cutting;
 }
 
-// Merges the pieces of each stage to at most `max_parts` and returns the least concave result.
-std::vector<Piece> BestMerged(std::vector<std::vector<Piece>> stages, int max_parts,
-                              const CutContext& context) {
+double WorstConcavity(const std::vector<Piece>& pieces) {
+  double worst = 0.0;
+  for (const Piece& piece : pieces) worst = std::max(worst, piece.concavity);
+  return worst;
+}
+
+// Convex parts as groups of the finest pieces of a cutting.
+struct Attempt {
+  std::vector<Piece> cells, parts;
+  double worst = 0.0;  // concavity
+};
+
+// Merges the pieces of each stage of a cutting to at most `max_parts`. The stages are independent,
+// and their loops are short: each gets a thread.
+std::vector<Attempt> Merged(const Cutting& cutting, int max_parts, const CutContext& context) {
   const DecompositionOptions& options = *context.options;
-  std::vector<Piece>* best = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::vector<Piece>& pieces : stages) {
-    if (options.merge || static_cast<int>(pieces.size()) > max_parts) {
-      MergePieces(context, options.merge ? options.threshold : 0.0, max_parts, &pieces);
+  std::vector<Attempt> attempts(cutting.stages.size());
+  core::ParallelFor(static_cast<int>(attempts.size()), [&](int i) {
+    Attempt& attempt = attempts[i];
+    attempt.cells = cutting.cells;
+    attempt.parts = cutting.stages[i];
+    if (options.merge || static_cast<int>(attempt.parts.size()) > max_parts) {
+      MergePieces(context, options.merge ? options.threshold : 0.0, max_parts, &attempt.parts);
     }
-    double worst = 0.0;
-    for (Piece& piece : pieces) {
-      MeasureConcavity(context, &piece);
-      worst = std::max(worst, piece.concavity);
+    for (Piece& piece : attempt.parts) MeasureConcavity(context, &piece);
+    attempt.worst = WorstConcavity(attempt.parts);
+  });
+  return attempts;
+}
+
+// Returns true if `a` is the better result: closer to the threshold, then of fewer parts, then less
+// concave.
+bool IsBetter(const Attempt& a, const Attempt& b, double threshold) {
+  const auto rank = [&](const Attempt& attempt) {
+    const double beyond = std::max(0.0, attempt.worst - threshold);
+    return std::tuple(beyond, attempt.parts.size(), attempt.worst);
+  };
+  return rank(a) < rank(b);
+}
+
+// Returns the best of the cuttings' merged results, without a limit on the number of parts.
+std::vector<Piece> FewestParts(const std::vector<Cutting>& cuttings, const CutContext& context) {
+  std::vector<Attempt> attempts;
+  for (const Cutting& cutting : cuttings) {
+    for (Attempt& attempt : Merged(cutting, kMostParts, context)) {
+      attempts.push_back(std::move(attempt));
     }
-    if (worst >= least) continue;
-    least = worst;
-    best = &pieces;
   }
-  return std::move(*best);
+  const auto better = [&](const Attempt& a, const Attempt& b) {
+    return IsBetter(a, b, context.options->threshold);
+  };
+  return std::min_element(attempts.begin(), attempts.end(), better)->parts;
+}
+
+// Improves the best merged results of each cutting a little and the best of all further, and
+// returns that.
+std::vector<Piece> LeastConcave(const std::vector<Cutting>& cuttings, int max_parts,
+                                const CutContext& context) {
+  const auto better = [&](const Attempt& a, const Attempt& b) {
+    return IsBetter(a, b, context.options->threshold);
+  };
+  const auto improve = [&](int evaluations, std::vector<Attempt>* attempts) {
+    core::ParallelFor(static_cast<int>(attempts->size()), [&](int i) {
+      Attempt& attempt = (*attempts)[i];
+      const int parts = std::max<int>(kFewParts, attempt.parts.size());
+      RegroupCells(context, evaluations * parts, &attempt.cells, &attempt.parts);
+      for (Piece& piece : attempt.parts) MeasureConcavity(context, &piece);
+      attempt.worst = WorstConcavity(attempt.parts);
+    });
+    std::stable_sort(attempts->begin(), attempts->end(), better);
+  };
+  std::vector<Attempt> attempts;
+  for (const Cutting& cutting : cuttings) {
+    std::vector<Attempt> merged = Merged(cutting, max_parts, context);
+    std::stable_sort(merged.begin(), merged.end(), better);
+    for (std::size_t i = 0; i < std::min(kImproved, merged.size()); ++i) {
+      attempts.push_back(std::move(merged[i]));
+    }
+  }
+  improve(kFewEvaluations, &attempts);
+  attempts.resize(std::min(kFinalists, attempts.size()));
+  improve(kManyEvaluations, &attempts);
+  return std::move(attempts[0].parts);
+}
+
+// Returns the hull with at most `max_vertices`. The simplified hull keeps the volume and therefore
+// protrudes a little; where it deviates too far from the solid, the inscribed hull takes its place.
+core::TriangleMesh WithinVertices(const core::TriangleMesh& hull, int max_vertices,
+                                  const CutContext& context) {
+  if (static_cast<int>(hull.vertices.size()) <= max_vertices) return hull;
+  core::TriangleMesh simple = SimplifyHull(hull, max_vertices);
+  const double limit = context.options->tolerance > 0.0
+                           ? context.options->threshold * context.fit->unit()
+                           : context.fit->Distance(hull) + kProtrusion * context.diagonal;
+  const double distance = context.fit->Distance(simple);
+  if (distance <= limit) return simple;
+  core::TriangleMesh inscribed = ThickenedConvexHull(
+      hull.vertices, context.options->min_thickness * context.diagonal, max_vertices);
+  return context.fit->Distance(inscribed) < distance ? inscribed : simple;
 }
 
 // Grows the hulls by the solid's own vertices that lie outside of the simplified solid's parts.
@@ -154,6 +273,24 @@ void GrowHulls(const core::TriangleMesh& solid, const CutContext& context,
   }
 }
 
+// Returns ConvexDecomposition::deviation.
+double Deviation(const std::vector<ConvexPart>& parts, const HullDeviation& fit) {
+  double farthest = 0.0;
+  std::vector<std::vector<Eigen::Vector4d>> planes;
+  for (const ConvexPart& part : parts) {
+    farthest = std::max(farthest, fit.Distance(part.hull));
+    planes.push_back(FacePlanes(part.hull));
+  }
+  for (const Vector3d& p : fit.samples()) {
+    double height = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < planes.size() && height > farthest; ++i) {
+      height = std::min(height, MaxPlaneDistance(planes[i], p));
+    }
+    farthest = std::max(farthest, height);
+  }
+  return farthest;
+}
+
 ConvexDecomposition DecomposeUnit(const core::TriangleMesh& solid,
                                   const DecompositionOptions& options) {
   const double diagonal = core::Bounds(solid).diagonal().norm();
@@ -165,13 +302,23 @@ ConvexDecomposition DecomposeUnit(const core::TriangleMesh& solid,
   // Cut more pieces than needed, then merge: merging considers all neighbours, cutting only one
   // piece at a time. The best surplus varies, so several are tried.
   const int p = options.max_parts;
-  std::vector<int> limits{kMostParts};
-  if (p > 0) limits = {p, p + p / 4 + 1, p + p / 2 + 2, 2 * p + 6};
+  const core::TriangleMesh search = SearchMesh(solid, diagonal);
+  std::vector<int> limits{kMostParts}, halving{kMostParts};
+  if (p > 0) {
+    limits = {p, p + p / 2 + 2, 3 * p + 10};
+    halving = {2 * p, 4 * p};
+  }
+  std::vector<Cutting> cuttings{CutRepeatedly(search, options.threshold, limits, context, BestCut)};
+  cuttings.push_back(CutRepeatedly(search, options.threshold, limits, context, FlatCut));
+  if (p > 0) cuttings.push_back(CutRepeatedly(search, options.threshold, halving, context, Halved));
   std::vector<Piece> pieces =
-      BestMerged(CutRepeatedly(SearchMesh(solid, diagonal), options.threshold, limits, context),
-                 p > 0 ? p : kMostParts, context);
+      p > 0 ? LeastConcave(cuttings, p, context) : FewestParts(cuttings, context);
   GrowHulls(solid, context, &pieces);
 
+  int most_vertices = options.max_hull_vertices;
+  if (options.max_hull_faces > 0) {
+    most_vertices = std::min(most_vertices, VerticesWithFaces(options.max_hull_faces));
+  }
   ConvexDecomposition result;
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Piece& a, const Piece& b) { return a.hull_volume > b.hull_volume; });
@@ -179,10 +326,11 @@ ConvexDecomposition DecomposeUnit(const core::TriangleMesh& solid,
     MeasureConcavity(context, &piece);
     ConvexPart part;
     part.concavity = piece.concavity;
-    part.hull = SimplifyHull(piece.hull, options.max_hull_vertices);
+    part.hull = WithinVertices(piece.hull, most_vertices, context);
     result.concavity = std::max(result.concavity, part.concavity);
     result.parts.push_back(std::move(part));
   }
+  result.deviation = Deviation(result.parts, fit);
   result.coverage = Coverage(solid, Hulls(result));
   return result;
 }
@@ -206,7 +354,13 @@ ConvexDecomposition Decompose(const core::TriangleMesh& solid,
   const Vector3d middle = core::Bounds(welded).center();
   const double scale = std::exp2(-std::ceil(std::log2(diagonal)));
   for (Vector3d& v : welded.vertices) v = (v - middle) * scale;
-  ConvexDecomposition result = DecomposeUnit(welded, options);
+  DecompositionOptions unit = options;
+  if (options.tolerance > 0.0) {
+    const double half = 0.5 * core::Bounds(solid).sizes().maxCoeff();
+    unit.threshold = std::min(2.0, options.tolerance / half);
+  }
+  ConvexDecomposition result = DecomposeUnit(welded, unit);
+  result.deviation /= scale;
   for (ConvexPart& part : result.parts) {
     for (Vector3d& v : part.hull.vertices) v = v / scale + middle;
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/parallel.h"
 #include "geometry/surface_distance.h"
 #include "geometry/weld.h"
 
@@ -14,13 +15,27 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 
-constexpr double kVolumeWeight = 0.3;  // k of CoACD
-constexpr int kHullPoints = 500;       // per hull: a spacing of about 5% of its size
+constexpr double kVolumeWeight = 0.3;    // k of CoACD
+constexpr int kFewHullPoints = 60;       // in a first pass
+constexpr int kHullPoints = 500;         // per hull: a spacing of about 5% of its size
+constexpr double kConcavityStep = 1e-5;  // concavities are multiples of it
+constexpr double kWorthSampling = 1e-3;  // concavity above which an excess is sampled
+constexpr int kOutsideBlocks = 32;
+constexpr int kOutsideSamples = 8192;  // points in the AABB that measure a volume
 
 // Returns a direction that no axis-aligned or regularly rotated face is parallel to.
 const Vector3d& SkewDirection() {
   static const Vector3d direction = Vector3d(0.5377, 0.2893, 0.7920).normalized();
   return direction;
+}
+
+// Returns the point `i` of a sequence of low discrepancy in the unit cube: M. Roberts' additive
+// recurrence, whose steps are powers of the root of x^4 = x + 1.
+Vector3d EvenPoint(int i) {
+  constexpr double kRoot = 1.2207440846057596;
+  const Vector3d step(1.0 / kRoot, 1.0 / (kRoot * kRoot), 1.0 / (kRoot * kRoot * kRoot));
+  const Vector3d p = Vector3d::Constant(0.5) + (i + 1) * step;
+  return p.array() - p.array().floor();
 }
 
 // Calls visit(p) for points spread evenly over each triangle, by area, at least at its centroid;
@@ -82,7 +97,33 @@ HullDeviation::HullDeviation(const core::TriangleMesh& solid, int samples, std::
     : solid_(solid),
       tree_(solid),
       samples_(SampleSurface(solid, samples, seed)),
-      unit_(0.5 * core::Bounds(solid).sizes().maxCoeff()) {}
+      unit_(0.5 * core::Bounds(solid).sizes().maxCoeff()) {
+  const Eigen::AlignedBox3d box = core::Bounds(solid_);
+  sample_volume_ = box.volume() / kOutsideSamples;
+  std::vector<Vector3d> points(kOutsideSamples);
+  std::vector<char> outside(kOutsideSamples, 0);
+  core::ParallelFor(kOutsideBlocks, [&](int block) {
+    for (int i = block; i < kOutsideSamples; i += kOutsideBlocks) {
+      points[i] = box.min() + EvenPoint(i).cwiseProduct(box.sizes());
+      outside[i] = Outside(points[i]);
+    }
+  });
+  for (int i = 0; i < kOutsideSamples; ++i) {
+    if (outside[i]) outside_.push_back(points[i]);
+  }
+}
+
+double HullDeviation::OutsideVolume(const core::TriangleMesh& hull,
+                                    const std::vector<Vector4d>& planes) const {
+  const Eigen::AlignedBox3d box = core::Bounds(hull);
+  int count = 0;
+  for (const Vector3d& p : outside_) {
+    if (!box.contains(p)) continue;
+    count += std::all_of(planes.begin(), planes.end(),
+                         [&](const Vector4d& plane) { return plane.head<3>().dot(p) < plane[3]; });
+  }
+  return count * sample_volume_;
+}
 
 double HullDeviation::VolumeConcavity(double excess_volume) const {
   const double radius = std::cbrt(3.0 * std::max(0.0, excess_volume) / (4.0 * std::numbers::pi));
@@ -93,9 +134,9 @@ bool HullDeviation::Outside(const Vector3d& p) const {
   return !InsideSurface(solid_, tree_, p);
 }
 
-double HullDeviation::Overhang(const core::TriangleMesh& hull, double enough) const {
+double HullDeviation::Overhang(const core::TriangleMesh& hull, int points, double enough) const {
   double farthest = 0.0;
-  VisitSurface(hull, kHullPoints, [&](const Vector3d& p) {
+  VisitSurface(hull, points, [&](const Vector3d& p) {
     // Most points are nearer than the farthest so far, which is cheaper to test than their
     // distance.
     if (!tree_.Within(p, farthest) && Outside(p)) farthest = tree_.Closest(p).distance;
@@ -104,25 +145,49 @@ double HullDeviation::Overhang(const core::TriangleMesh& hull, double enough) co
   return farthest;
 }
 
-double HullDeviation::Buried(const core::TriangleMesh& hull, double enough) const {
+double HullDeviation::Buried(const core::TriangleMesh& hull, const std::vector<Vector4d>& planes,
+                             double enough) const {
   const Eigen::AlignedBox3d box = core::Bounds(hull);
-  const std::vector<Vector4d> planes = FacePlanes(hull);
   double deepest = 0.0;
   for (const Vector3d& p : samples_) {
     if (!box.contains(p)) continue;
-    deepest = std::max(deepest, -MaxPlaneDistance(planes, p));
+    double depth = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < planes.size() && depth > deepest; ++i) {
+      depth = std::min(depth, planes[i][3] - planes[i].head<3>().dot(p));
+    }
+    deepest = std::max(deepest, depth);
     if (deepest > enough) break;
   }
   return deepest;
 }
 
+double HullDeviation::Distance(const core::TriangleMesh& hull) const {
+  const double all = std::numeric_limits<double>::infinity();
+  return std::max(Buried(hull, FacePlanes(hull), all), Overhang(hull, kHullPoints, all));
+}
+
 double HullDeviation::Concavity(const core::TriangleMesh& hull, double volume,
                                 double enough) const {
-  double concavity = VolumeConcavity(SignedVolume(hull) - volume);
+  const double measured = Measure(hull, volume, enough);
+  const double rounded = kConcavityStep * std::round(measured / kConcavityStep);
+  // A bound above `enough` stays above it.
+  return measured > enough && rounded <= enough ? rounded + 2.0 * kConcavityStep : rounded;
+}
+
+double HullDeviation::Measure(const core::TriangleMesh& hull, double volume, double enough) const {
+  const std::vector<Vector4d> planes = FacePlanes(hull);
+  double concavity = Buried(hull, planes, enough * unit_) / unit_;
+  // Few points show most of the hulls that are too concave.
+  for (const int points : {kFewHullPoints, kHullPoints}) {
+    if (concavity > enough) return concavity;
+    concavity = std::max(concavity, Overhang(hull, points, enough * unit_) / unit_);
+  }
   if (concavity > enough) return concavity;
-  concavity = std::max(concavity, Buried(hull, enough * unit_) / unit_);
-  if (concavity > enough) return concavity;
-  return std::max(concavity, Overhang(hull, enough * unit_) / unit_);
+  const double excess = SignedVolume(hull) - volume;
+  if (VolumeConcavity(excess) <= std::max(concavity, kWorthSampling)) {
+    return std::max(concavity, VolumeConcavity(excess));
+  }
+  return std::max(concavity, VolumeConcavity(std::min(excess, OutsideVolume(hull, planes))));
 }
 
 }  // namespace simwright::geometry

@@ -22,24 +22,44 @@ class HullDeviation {
 
   // Returns max(Hausdorff distance, 0.3 Rv), in units of half the solid's longest side. The
   // Hausdorff distance is the larger of that from points on `hull` outside the solid to the solid's
-  // surface and that from points on the solid's surface inside `hull` to the hull's. `volume` (m^3)
-  // is the piece's. The search stops early once the distance exceeds `enough`.
+  // surface and that from points on the solid's surface inside `hull` to the hull's. Rv is that of
+  // the volume which the hull adds: the smaller of the hull's volume minus `volume` (m^3, of the
+  // part of the solid that the hull is known to contain) and of the hull's volume outside the
+  // solid, by sample points (a ten-thousandth of the AABB's volume each). The search stops early
+  // once the concavity exceeds `enough`; the result is then a lower bound.
+  // Rounded to 1e-5, so that ties do not depend on the rounding of the solid's coordinates.
   double Concavity(const core::TriangleMesh& hull, double volume, double enough) const;
+
+  // Returns the Hausdorff distance of Concavity alone, m.
+  double Distance(const core::TriangleMesh& hull) const;
+
+  // Returns the sample points on the solid's surface, m.
+  const std::vector<Eigen::Vector3d>& samples() const { return samples_; }
 
   // Returns 0.3 Rv only, where Rv is the radius of a ball of the volume that the hull adds, in the
   // same units.
   double VolumeConcavity(double excess_volume) const;
 
+  // Returns true if `p` (m) lies inside the solid.
+  bool Inside(const Eigen::Vector3d& p) const { return !Outside(p); }
+
   double unit() const { return unit_; }  // m, half the longest side
 
  private:
-  double Overhang(const core::TriangleMesh& hull, double enough) const;
-  double Buried(const core::TriangleMesh& hull, double enough) const;
+  double Measure(const core::TriangleMesh& hull, double volume, double enough) const;
+  double Overhang(const core::TriangleMesh& hull, int points, double enough) const;
+  // Both take the hull's face planes.
+  double Buried(const core::TriangleMesh& hull, const std::vector<Eigen::Vector4d>& planes,
+                double enough) const;
+  double OutsideVolume(const core::TriangleMesh& hull,
+                       const std::vector<Eigen::Vector4d>& planes) const;
   bool Outside(const Eigen::Vector3d& p) const;
 
   core::TriangleMesh solid_;
   TriangleTree tree_;
-  std::vector<Eigen::Vector3d> samples_;
+  std::vector<Eigen::Vector3d> samples_;  // on the surface
+  std::vector<Eigen::Vector3d> outside_;  // in the AABB, outside the solid
+  double sample_volume_ = 0.0;            // m^3, of each of outside_
   double unit_ = 1.0;
 };
 

@@ -179,11 +179,12 @@ void Add(const core::Findings& some, UrdfModel* model) {
 }
 
 // Replaces the links' collisions by convex parts.
-void MakeParts(bool robot, core::Progress* progress, UrdfModel* model) {
+void MakeParts(bool robot, const asset_build::PartBudget& budget, core::Progress* progress,
+               UrdfModel* model) {
   const double whole = BoundsAtZero(*model).diagonal().norm();
   progress->Stage("collision parts", 1);
   std::vector<std::vector<core::TriangleMesh>> parts =
-      ConvexPartsOf(model->links, whole, robot, &model->findings);
+      ConvexPartsOf(model->links, whole, robot, budget, &model->findings);
   for (size_t i = 0; i < parts.size(); ++i) {
     assets::UrdfLink& link = model->links[i];
     if (link.visuals.empty()) link.visuals = link.collisions;
@@ -415,7 +416,7 @@ ArticulatedAsset ConvertedModel(SemanticModel source, const ArticulatedImportOpt
                                SizeOf(BoundsAtZero(source.model)));
   CenterAboveOrigin(scale, &source.model);
   bool fixed = robot || source.model.root_is_world || IsBuiltIn(source, category.category->name);
-  MakeParts(robot, progress, &source.model);
+  MakeParts(robot, options.budget, progress, &source.model);
   MakeJointsFree(robot, &fixed, &source.model);
 
   ArticulatedAsset asset = AssetFrom(source);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "asset_build/part_budget.h"
 #include "asset_build/true_size.h"
 #include "assets/articulated_asset.h"
 #include "assets/semantic_model.h"
@@ -22,6 +23,7 @@ struct ArticulatedImportOptions {
   bool unit_stated = false;           // by the user: no resulting size is refused
   asset_build::StatedSize size = {};  // the whole asset's; overrides `height`
   physics_params::StatedPhysics stated = {};
+  asset_build::PartBudget budget = {};
   std::uint64_t seed = 1;
   std::filesystem::path root = {};  // meshes outside it are not read; empty: ReadUrdf's default
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numeric>
 #include <set>
@@ -25,7 +26,6 @@ namespace {
 using assets::UrdfLink;
 using assets::UrdfShape;
 
-constexpr int kMostVertices = 64;      // per part
 constexpr size_t kMostParts = 256;     // per link
 constexpr double kSheet = 2e-3;        // m, the thickness given to a flat component
 constexpr double kSmall = 0.02;        // of the asset's diagonal: shorter components become hulls
@@ -190,14 +190,17 @@ bool FillsItsHull(core::TriangleMesh piece, const core::TriangleMesh& hull) {
   return std::abs(geometry::SignedVolume(piece)) > kConvexShare * geometry::SignedVolume(hull);
 }
 
-std::vector<core::TriangleMesh> PartsOfPiece(const core::TriangleMesh& piece, double whole) {
+std::vector<core::TriangleMesh> PartsOfPiece(const core::TriangleMesh& piece, double whole,
+                                             const asset_build::PartBudget& budget,
+                                             const std::string& link, core::Findings* findings) {
+  const int most_vertices = asset_build::MostVertices(budget);
   if (IsFlat(piece)) {
-    return {geometry::ThickenedConvexHull(piece.vertices, kSheet, kMostVertices)};
+    return {geometry::ThickenedConvexHull(piece.vertices, kSheet, most_vertices)};
   }
   const core::TriangleMesh hull = geometry::ConvexHull(piece.vertices);
   const double size = core::Bounds(piece).diagonal().norm();
   if (size < kSmall * whole || FillsItsHull(piece, hull)) {
-    return {geometry::ConvexHull(piece.vertices, kMostVertices)};
+    return {geometry::ConvexHull(piece.vertices, most_vertices)};
   }
   // Errors are relative to the whole asset: a small component may be coarser relative to its own
   // size.
@@ -207,10 +210,13 @@ std::vector<core::TriangleMesh> PartsOfPiece(const core::TriangleMesh& piece, do
   solid.cell_ratio *= coarser;
   solid.tolerance_ratio *= coarser;
   solid.sheet_thickness_ratio *= coarser;
-  geometry::DecompositionOptions decomposition;
-  decomposition.threshold *= coarser;
-  return geometry::Hulls(
-      geometry::Decompose(geometry::MakeSolid(piece, solid).mesh, decomposition));
+  geometry::DecompositionOptions options;
+  options.threshold *= coarser;
+  options = asset_build::Limited(options, budget);
+  const core::TriangleMesh closed = geometry::MakeSolid(piece, solid).mesh;
+  const geometry::ConvexDecomposition decomposition = geometry::Decompose(closed, options);
+  asset_build::ReportBinding(closed, options, budget, decomposition, link, findings);
+  return geometry::Hulls(decomposition);
 }
 
 bool LiesInside(const core::TriangleMesh& inner, const core::TriangleMesh& outer) {
@@ -242,6 +248,24 @@ void KeepOutermost(std::vector<core::TriangleMesh>* parts) {
   *parts = std::move(kept);
 }
 
+// Merges a link's parts to the number that the budget allows, and reports it.
+void MergeToBudget(const asset_build::PartBudget& budget, const std::string& link,
+                   std::vector<core::TriangleMesh>* parts, core::Findings* findings) {
+  const size_t count = parts->size();
+  if (budget.max_parts == 0 || count <= static_cast<size_t>(budget.max_parts)) return;
+  double before = 0.0, after = 0.0;
+  for (const core::TriangleMesh& part : *parts) before += geometry::SignedVolume(part);
+  *parts =
+      geometry::MergeHulls(std::move(*parts), budget.max_parts, asset_build::MostVertices(budget));
+  for (const core::TriangleMesh& part : *parts) after += geometry::SignedVolume(part);
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%zu collision parts were merged to %d, whose volumes add up to %.2f times theirs",
+                count, budget.max_parts, after / before);
+  findings->push_back({"part-budget", core::Severity::kWarning, link, text, after / before,
+                       "allow more with --max-parts"});
+}
+
 }  // namespace
 
 bool HasOwnCollisions(const UrdfLink& link) {
@@ -270,22 +294,24 @@ core::TexturedMesh ColoredVisual(const UrdfLink& link) {
 
 std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(const std::vector<UrdfLink>& links,
                                                            double whole, bool hulls,
+                                                           const asset_build::PartBudget& budget,
                                                            core::Findings* findings) {
   struct Job {
     size_t link = 0;
     core::TriangleMesh piece;
     std::vector<core::TriangleMesh> parts;
+    core::Findings findings;
   };
   std::vector<Job> jobs;
   for (size_t i = 0; i < links.size(); ++i) {
     const bool own = hulls ? !links[i].collisions.empty() : HasOwnCollisions(links[i]);
     for (const UrdfShape& shape : own ? links[i].collisions : ShapesOf(links[i])) {
       if (own && hulls && !shape.mesh.empty() && !IsFlat(shape.mesh)) {
-        jobs.push_back({i, geometry::ConvexHull(shape.mesh.vertices), {}});
+        jobs.push_back({i, geometry::ConvexHull(shape.mesh.vertices), {}, {}});
         continue;
       }
       for (core::TriangleMesh& piece : PiecesOf(shape.mesh))
-        jobs.push_back({i, std::move(piece), {}});
+        jobs.push_back({i, std::move(piece), {}, {}});
     }
   }
   // The longest jobs run first, so that no thread waits for them at the end.
@@ -297,14 +323,16 @@ std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(const std::vector<Urd
   core::ParallelFor(static_cast<int>(jobs.size()), [&](int i) {
     core::CheckCancelled();
     Job& job = jobs[order[static_cast<size_t>(i)]];
-    job.parts = PartsOfPiece(job.piece, whole);
+    job.parts = PartsOfPiece(job.piece, whole, budget, links[job.link].name, &job.findings);
   });
   std::vector<std::vector<core::TriangleMesh>> parts(links.size());
   for (Job& job : jobs) {
     for (core::TriangleMesh& part : job.parts) parts[job.link].push_back(std::move(part));
+    findings->insert(findings->end(), job.findings.begin(), job.findings.end());
   }
   for (size_t i = 0; i < links.size(); ++i) {
     KeepOutermost(&parts[i]);
+    MergeToBudget(budget, links[i].name, &parts[i], findings);
     if (parts[i].size() <= kMostParts) continue;
     findings->push_back({"parts-left-out", core::Severity::kWarning, links[i].name,
                          "its smallest collision parts were omitted",

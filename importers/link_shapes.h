@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "asset_build/part_budget.h"
 #include "assets/urdf_reader.h"
 #include "core/finding.h"
 #include "core/mesh.h"
@@ -18,16 +19,19 @@ core::TexturedMesh ColoredVisual(const assets::UrdfLink& link);
 // visuals.
 bool HasOwnCollisions(const assets::UrdfLink& link);
 
-// Computes convex, closed, outward-oriented parts of at most 64 vertices for each link, in its
-// frame. The source geometry is the link's collisions if these are primitives or separate meshes,
-// else its visuals. Each connected component that is convex becomes its own hull; a flat one is
-// thickened to 2 mm; any other becomes a solid and is decomposed so that cavities stay open, more
-// coarsely the smaller it is relative to the whole asset. Components shorter than a fiftieth of
-// `whole` (the asset's diagonal, m) become hulls, those inside another part are removed, and if a
-// link has more than 256 parts only the largest are kept, which is reported. With `hulls`, each
-// collision mesh of a link becomes a single hull, as in Bullet and MuJoCo. Components of all links
-// are processed in parallel. (links)
+// Computes convex, closed, outward-oriented parts, of at most 64 vertices by default, for each
+// link, in its frame. The source geometry is the link's collisions if these are primitives or
+// separate meshes, else its visuals. Each connected component that is convex becomes its own hull;
+// a flat one is thickened to 2 mm; any other becomes a solid and is decomposed so that cavities
+// stay open, more coarsely the smaller it is relative to the whole asset. Components shorter than a
+// fiftieth of `whole` (the asset's diagonal, m) become hulls, those inside another part are
+// removed, and if a link has more than 256 parts only the largest are kept, which is reported. With
+// `hulls`, each collision mesh of a link becomes a single hull, as in Bullet and MuJoCo. `budget`
+// limits the parts of each link: a component is decomposed within it, and parts beyond its number
+// are merged where that adds the least volume, which is reported ("part-budget"). Components of all
+// links are processed in parallel. (links)
 std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(
-    const std::vector<assets::UrdfLink>& links, double whole, bool hulls, core::Findings* findings);
+    const std::vector<assets::UrdfLink>& links, double whole, bool hulls,
+    const asset_build::PartBudget& budget, core::Findings* findings);
 
 }  // namespace simwright::importers

@@ -2,6 +2,7 @@
 // given, CoACD, at the same number of parts, all measured by geometry/concavity.h on the same
 // solids.
 //   bench_decomposition_table [--coacd PYTHON] [--iterations N] [--folder DIR] [--only NAME]
+//                            [--hacd no] [--rounding yes]
 // CoACD runs with its threshold of 0.05; its number of parts is the limit for the other two.
 // Without it the limit is the number of parts that ours needs at 0.05. Solids and CoACD's parts
 // stay in DIR, and existing parts are read instead of computed again.
@@ -19,6 +20,7 @@
 
 #include "bench/geometry/decomposition_shapes.h"
 #include "core/error.h"
+#include "core/random.h"
 #include "geometry/concavity.h"
 #include "geometry/convex_decomposition.h"
 #include "geometry/convex_hull.h"
@@ -44,7 +46,7 @@ double Seconds() {
 Row Ours(const core::TriangleMesh& mesh, int parts) {
   geometry::DecompositionOptions options;
   options.max_parts = parts;
-  if (parts > 0) options.threshold = 0.005;
+  if (parts > 0) options.threshold = 0.001;
   Row row;
   const double start = Seconds();
   row.parts = geometry::Hulls(geometry::Decompose(mesh, options));
@@ -87,6 +89,28 @@ Row Hacd(const core::TriangleMesh& mesh, int parts) {
     row.parts.push_back(geometry::ThickenedConvexHull(vertices, 1e-5 * size));
   }
   return row;
+}
+
+// Returns the mesh as a file with 6 significant digits gives it.
+core::TriangleMesh Rewritten(core::TriangleMesh mesh) {
+  for (auto& v : mesh.vertices) {
+    for (int k = 0; k < 3; ++k) {
+      char digits[32];
+      std::snprintf(digits, sizeof(digits), "%.6g", v[k]);
+      v[k] = std::atof(digits);
+    }
+  }
+  return mesh;
+}
+
+// Returns the mesh with each coordinate moved by at most 1e-7 of the diagonal.
+core::TriangleMesh Jittered(core::TriangleMesh mesh) {
+  core::Rng rng(7);
+  const double reach = 1e-7 * core::Bounds(mesh).diagonal().norm();
+  for (auto& v : mesh.vertices) {
+    for (int k = 0; k < 3; ++k) v[k] += core::Uniform(rng, -reach, reach);
+  }
+  return mesh;
 }
 
 void WriteObj(const core::TriangleMesh& mesh, const fs::path& path) {
@@ -174,12 +198,15 @@ int Main(int argc, char** argv) {
   std::string python, only;
   fs::path folder = fs::temp_directory_path() / "simwright_decomposition";
   int iterations = 150;
+  bool with_hacd = true, with_rounding = false;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string flag = argv[i];
     if (flag == "--coacd") python = argv[i + 1];
     if (flag == "--iterations") iterations = std::atoi(argv[i + 1]);
     if (flag == "--folder") folder = argv[i + 1];
     if (flag == "--only") only = argv[i + 1];
+    if (flag == "--rounding") with_rounding = std::string(argv[i + 1]) == "yes";
+    if (flag == "--hacd") with_hacd = std::string(argv[i + 1]) != "no";
   }
   fs::create_directories(folder);
   std::printf("CoACD: %s, %d MCTS iterations (its default is 150)\n",
@@ -187,11 +214,15 @@ int Main(int argc, char** argv) {
   std::printf("%-11s %-6s %4s  %8s %8s %8s  %8s %8s  %6s  %8s\n", "solid", "method", "part",
               "concav.", "to solid", "to part", "vol.err", "missing", "cover", "seconds");
   Duel hacd_concavity, hacd_volume, coacd_concavity, coacd_volume;
-  double our_seconds = 0.0, slowest = 0.0;
+  double our_seconds = 0.0, slowest = 0.0, coacd_seconds = 0.0;
+  std::vector<double> times_faster, rounding;
+  int beyond = 0;
   for (const NamedSolid& solid : AllSolids()) {
     if (!only.empty() && solid.name != only) continue;
     const auto judge = [&](Row* row) {
-      row->quality = geometry::MeasureDecomposition(solid.mesh, row->parts);
+      geometry::ConcavityOptions fine;
+      fine.surface_samples = 100000;
+      row->quality = geometry::MeasureDecomposition(solid.mesh, row->parts, fine);
     };
     Row coacd;
     if (!python.empty()) {
@@ -200,26 +231,56 @@ int Main(int argc, char** argv) {
     }
     Row ours = Ours(solid.mesh, static_cast<int>(coacd.parts.size()));
     judge(&ours);
-    Row hacd = Hacd(solid.mesh, static_cast<int>(std::max(ours.parts.size(), coacd.parts.size())));
-    judge(&hacd);
     Print(solid.name, "ours", ours);
-    Print(solid.name, "HACD", hacd);
     our_seconds += ours.seconds;
+    for (const bool noise : {false, true}) {
+      if (!with_rounding) break;
+      Row again = Ours(noise ? Jittered(solid.mesh) : Rewritten(solid.mesh),
+                       static_cast<int>(coacd.parts.size()));
+      judge(&again);
+      Print(solid.name, noise ? "jitter" : "6 dig.", again);
+      const double change = again.quality.concavity - ours.quality.concavity;
+      rounding.push_back(std::abs(change));
+      const double slack = std::max(1e-3, 0.1 * ours.quality.concavity);
+      beyond += rounding.back() > slack;
+    }
     slowest = std::max(slowest, ours.seconds);
-    hacd_concavity.Add(ours.quality.concavity, hacd.quality.concavity);
-    hacd_volume.Add(ours.quality.volume_error, hacd.quality.volume_error);
+    if (with_hacd) {
+      const std::size_t parts = std::max(ours.parts.size(), coacd.parts.size());
+      Row hacd = Hacd(solid.mesh, static_cast<int>(parts));
+      judge(&hacd);
+      Print(solid.name, "HACD", hacd);
+      hacd_concavity.Add(ours.quality.concavity, hacd.quality.concavity);
+      hacd_volume.Add(ours.quality.volume_error, hacd.quality.volume_error);
+    }
     if (python.empty()) continue;
+    coacd_seconds += coacd.seconds;
+    times_faster.push_back(coacd.seconds / ours.seconds);
     Print(solid.name, "CoACD", coacd);
     coacd_concavity.Add(ours.quality.concavity, coacd.quality.concavity);
     coacd_volume.Add(ours.quality.volume_error, coacd.quality.volume_error);
   }
-  hacd_concavity.Print("HACD", "concavity");
-  hacd_volume.Print("HACD", "volume error");
+  if (with_hacd) {
+    hacd_concavity.Print("HACD", "concavity");
+    hacd_volume.Print("HACD", "volume error");
+  }
   if (!python.empty()) {
     coacd_concavity.Print("CoACD", "concavity");
     coacd_volume.Print("CoACD", "volume error");
   }
+  if (with_rounding) {
+    std::printf(
+        "rounding: concavity changes by %.4f in the median, %.4f at most; %d of %zu by "
+        "more than a tenth and a thousandth of the diagonal\n",
+        Median(rounding), *std::max_element(rounding.begin(), rounding.end()), beyond,
+        rounding.size());
+  }
   std::printf("ours: %.1f s in all, %.1f s the slowest\n", our_seconds, slowest);
+  if (!python.empty()) {
+    std::printf("CoACD: %.1f s in all, ours %.2f times faster; median ratio %.2f, least %.2f\n",
+                coacd_seconds, coacd_seconds / our_seconds, Median(times_faster),
+                *std::min_element(times_faster.begin(), times_faster.end()));
+  }
   return 0;
 }
 

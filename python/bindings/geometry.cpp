@@ -45,6 +45,7 @@ nb::tuple Decompose(const core::TriangleMesh& solid, const geometry::Decompositi
       report, [&](core::Progress* /*progress*/) { return geometry::Decompose(solid, options); });
   nb::dict facts;
   facts["concavity"] = parts.concavity;
+  facts["deviation"] = parts.deviation;
   facts["coverage"] = parts.coverage;
   return nb::make_tuple(geometry::Hulls(parts), facts);
 }
@@ -79,15 +80,18 @@ void BindGeometry(nb::module_& module) {
   module.def(
       "decompose",
       [](const core::TriangleMesh& solid, double threshold, int max_parts, int max_vertices,
-         std::uint64_t seed, const nb::object& report) {
+         int max_faces, double tolerance, std::uint64_t seed, const nb::object& report) {
         geometry::DecompositionOptions options;
         options.threshold = threshold;
         options.max_parts = max_parts;
         options.max_hull_vertices = max_vertices;
+        options.max_hull_faces = max_faces;
+        options.tolerance = tolerance;
         options.seed = seed;
         return Decompose(solid, options, report);
       },
-      "solid"_a, "threshold"_a, "max_parts"_a, "max_vertices"_a, "seed"_a, "report"_a = nb::none());
+      "solid"_a, "threshold"_a, "max_parts"_a, "max_vertices"_a, "max_faces"_a, "tolerance"_a,
+      "seed"_a, "report"_a = nb::none());
 }
 
 }  // namespace simwright::python

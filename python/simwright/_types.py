@@ -97,6 +97,7 @@ class DecompositionFacts(TypedDict):
     """What ``geometry.decompose`` says about the parts."""
 
     concavity: float
+    deviation: float
     coverage: float
 
 

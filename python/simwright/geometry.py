@@ -55,7 +55,8 @@ def make_solid(mesh: Mesh | TexturedMesh, face_budget: int = 20000,
 
 
 def decompose(solid: Mesh | TexturedMesh, threshold: float = 0.05, max_parts: int = 0,
-              max_vertices: int = 64, seed: int = 1, progress: ProgressArgument = None,
+              max_vertices: int = 64, max_faces: int = 0, tolerance: float = 0.0, seed: int = 1,
+              progress: ProgressArgument = None,
               ) -> tuple[list[Mesh], DecompositionFacts]:
     """Decomposes a closed solid into convex parts that leave its hollows open.
 
@@ -64,11 +65,15 @@ def decompose(solid: Mesh | TexturedMesh, threshold: float = 0.05, max_parts: in
         threshold (float): largest concavity of a part; the solid's longest side counts 2.
         max_parts (int): most parts; 0: as many as the threshold needs, at most 256.
         max_vertices (int): most vertices of a part, at least 16.
+        max_faces (int): most triangles of a part, at least 28; 0: as the vertices allow.
+        tolerance (float): m, the largest distance by which a part may deviate from the solid;
+            above 0 it takes the threshold's place.
         seed (int): of the points at which concavity is measured.
         progress: see ``simwright``.
 
     Returns:
-        (list of Mesh, dict): the parts by descending volume; and ``concavity`` and ``coverage``.
+        (list of Mesh, dict): the parts by descending volume; and ``concavity``, ``deviation`` (the
+        largest distance between parts and solid, m) and ``coverage``.
 
     Raises:
         Error: for a mesh without volume, or an option out of its range.
@@ -76,6 +81,7 @@ def decompose(solid: Mesh | TexturedMesh, threshold: float = 0.05, max_parts: in
     return cast("tuple[list[Mesh], DecompositionFacts]", _core.decompose(
         checked.surface("solid", solid), checked.number("threshold", threshold),
         checked.integer("max_parts", max_parts, 0), checked.integer("max_vertices", max_vertices, 16),
+        checked.integer("max_faces", max_faces, 0), checked.number("tolerance", tolerance),
         checked.seeded(seed), reporter(progress)))
 
 

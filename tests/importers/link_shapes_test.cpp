@@ -7,6 +7,8 @@
 #include <fstream>
 
 #include "core/image.h"
+#include "geometry/weld.h"
+#include "tests/geometry/solid_shapes.h"
 
 namespace simwright::importers {
 namespace {
@@ -98,6 +100,30 @@ TEST_F(LinkColors, ManyColoursBecomeTheirMean) {
   link.visuals.push_back(shape);
   // The mean of 0, 36 ... 252 is 126.
   EXPECT_EQ(Triangles(ColoredVisual(link), {126 / 255.0f, 126 / 255.0f, 0}), 64);
+}
+
+// Three separate boxes of one link: with two parts, the two that are nearest share a hull.
+TEST(LinkParts, AreMergedToTheBudgetAndReported) {
+  assets::UrdfLink link;
+  link.name = "shelf";
+  for (const double x : {0.0, 0.12, 0.5}) {
+    assets::UrdfShape shape;
+    shape.mesh = shapes::Box(Eigen::Vector3d(x, 0, 0), Eigen::Vector3d(x + 0.1, 0.1, 0.1));
+    link.collisions.push_back(shape);
+  }
+  core::Findings findings;
+  EXPECT_EQ(ConvexPartsOf({link}, 0.7, false, {}, &findings)[0].size(), 3u);
+  EXPECT_TRUE(findings.empty());
+  asset_build::PartBudget budget;
+  budget.max_parts = 2;
+  const auto parts = ConvexPartsOf({link}, 0.7, false, budget, &findings)[0];
+  ASSERT_EQ(parts.size(), 2u);
+  const double volumes[] = {geometry::SignedVolume(parts[0]), geometry::SignedVolume(parts[1])};
+  EXPECT_NEAR(std::max(volumes[0], volumes[1]), 0.22 * 0.1 * 0.1, 1e-9);
+  EXPECT_NEAR(std::min(volumes[0], volumes[1]), 0.1 * 0.1 * 0.1, 1e-9);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].code, "part-budget");
+  EXPECT_EQ(findings[0].place, "shelf");
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "core/files.h"
 #include "core/image.h"
 #include "program.h"
+#include "tests/geometry/solid_shapes.h"
 
 namespace simwright {
 namespace {
@@ -262,6 +263,35 @@ TEST_F(CommandLine, OneOpenFaceBecomesASheetWithAWall) {
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   const std::string json = core::ReadFile(folder_ / "out" / "sheet" / "asset.json");
   EXPECT_NE(json.find("sheet_thickness_m"), std::string::npos);
+}
+
+// The written collision meshes keep the limits, and the finding states what the precision takes.
+TEST_F(CommandLine, CollisionPartsStayWithinTheirBudget) {
+  const std::string mesh = Write("cup.obj", assets::ObjText(shapes::Cup(.04, .1, .004, 48)));
+  const Outcome outcome =
+      RunProgram("import " + mesh + " --category mug --up z --unit m --no-check --max-parts 5 " +
+                 "--max-vertices 40 --max-faces 60 --part-tolerance 0.001 -o " + Out());
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("[part-budget]"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("a tolerance of 1.00 mm would take"), std::string::npos);
+  int parts = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "out" / "cup")) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("collision_", 0) != 0 || entry.path().extension() != ".obj") continue;
+    ++parts;
+    const std::string text = "\n" + core::ReadFile(entry.path());
+    int vertices = 0, faces = 0;
+    for (size_t at = 0; (at = text.find('\n', at)) != std::string::npos; ++at) {
+      vertices += text.compare(at + 1, 2, "v ") == 0;
+      faces += text.compare(at + 1, 2, "f ") == 0;
+    }
+    EXPECT_GE(vertices, 4) << name;
+    EXPECT_LE(vertices, 32) << name;  // 60 faces have 32 vertices
+    EXPECT_LE(faces, 60) << name;
+  }
+  EXPECT_GE(parts, 2);
+  EXPECT_LE(parts, 5);
+  EXPECT_EQ(RunProgram("import " + mesh + " -o " + Out() + " --max-vertices 8").code, 2);
 }
 
 TEST_F(CommandLine, AnExistingOutputIsKeptUnlessForced) {

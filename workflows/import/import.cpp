@@ -205,6 +205,7 @@ class Importer {
     options.unit_stated = options_.unit_stated;
     options.size = options_.size;
     options.stated = options_.stated;
+    options.budget = options_.budget;
     options.seed = options_.seed;
     const assets::ArticulatedAsset asset =
         importers::ImportArticulated(std::move(source), options, progress);
@@ -238,6 +239,7 @@ class Importer {
                          *request.category.category, options_, &findings);
     }
     request.stated = options_.stated;
+    request.budget = options_.budget;
     request.volume_error = kImportedVolumeError;
     if (source != nullptr) {
       TakeMassOfFile(item, source->model, visual.mesh, &request.stated, &findings);

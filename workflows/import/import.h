@@ -27,6 +27,7 @@ struct ImportOptions {
   // category unless `height` or `size` is set.
   bool sampled_size = false;
   physics_params::StatedPhysics stated;
+  asset_build::PartBudget budget;
   std::uint64_t seed = 1;
   bool force = false;   // replaces existing outputs
   bool resume = false;  // keeps existing outputs and imports the others

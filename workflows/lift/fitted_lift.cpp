@@ -41,6 +41,7 @@ std::string AgreementText(double iou, double edge_error) {
 std::string Unusable(const Finishing& finishing) {
   if (!finishing.size.empty()) return "--size is not used with an articulated fit";
   if (finishing.stated.Any()) return "a stated mass, density or friction is not used with one";
+  if (finishing.budget.Any()) return "a budget of collision parts is not used with one";
   return "";
 }
 

@@ -93,6 +93,7 @@ ImportOptions OptionsFor(const LiftRequest& request, const CutOutPhoto& cut,
   options.height = request.height;
   options.size = request.size;
   options.stated = request.stated;
+  options.budget = request.budget;
   options.seed = request.seed;
   options.force = request.force;
   options.sampled_size = true;

@@ -135,6 +135,7 @@ LiftOutcome FinishLift(const Finishing& finishing, double lift_seconds,
   build.source = finishing.source;
   build.category = finishing.category;
   build.stated = finishing.stated;
+  build.budget = finishing.budget;
   build.seed = finishing.seed;
   if (finishing.metric) build.volume_error = kPhotoVolumeError;
   asset_build::BuiltAsset built = asset_build::BuildAsset(lifted.mesh, build, progress);
@@ -186,6 +187,7 @@ LiftOutcome LiftToFolder(const LiftRequest& request, core::Progress* progress) {
                       request.height,
                       request.size,
                       request.stated,
+                      request.budget,
                       false,
                       request.seed};
   if (request.shape == LiftShape::kFitted) RequireFittable(finishing);
@@ -245,6 +247,7 @@ LiftOutcome LiftToFolder(const MultiLiftRequest& request, core::Progress* progre
                       request.height,
                       request.size,
                       request.stated,
+                      request.budget,
                       true,
                       request.seed};
   const std::map<std::string, core::Camera> cameras = assets::ReadCameraFile(request.cameras);

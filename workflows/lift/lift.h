@@ -31,6 +31,7 @@ struct LiftRequest {
   double height = 0.0;                                    // m; 0: sampled from the category's range
   asset_build::StatedSize size;                           // overrides `height`
   physics_params::StatedPhysics stated;
+  asset_build::PartBudget budget;
   double elevation_degrees = -1.0;  // negative: estimated
   double fov_degrees = 0.0;         // 0: EXIF or the default
   bool delight = false;             // the texture without the photo's shading (kFree)
@@ -54,6 +55,7 @@ struct MultiLiftRequest {
   double height = 0.0;           // m; 0: the size that the cameras give
   asset_build::StatedSize size;  // overrides `height`
   physics_params::StatedPhysics stated;
+  asset_build::PartBudget budget;
   asset_lift::LiftEffort effort = asset_lift::LiftEffort::kFull;
   std::uint64_t seed = 1;
   std::filesystem::path output;

@@ -22,6 +22,7 @@ struct Finishing {
   double height = 0.0;           // m; 0: see `metric`
   asset_build::StatedSize size;  // overrides `height`
   physics_params::StatedPhysics stated;
+  asset_build::PartBudget budget;
   bool metric = false;  // the mesh is already in metres
   std::uint64_t seed = 1;
 };

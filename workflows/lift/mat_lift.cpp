@@ -89,6 +89,7 @@ LiftOutcome LiftToFolder(const MatLiftRequest& request, core::Progress* progress
                             0.0,
                             request.size,
                             request.stated,
+                            request.budget,
                             true,
                             request.seed};
   const auto start = std::chrono::steady_clock::now();

@@ -21,6 +21,7 @@ struct MatLiftRequest {
   double ruler = 0.1;            // m, the measured length of the mat's printed ruler
   asset_build::StatedSize size;  // overrides the size that the mat gives
   physics_params::StatedPhysics stated;
+  asset_build::PartBudget budget;
   std::uint64_t seed = 1;
   std::filesystem::path output;  // the asset folder
   bool force = false;

@@ -28,6 +28,7 @@ LiftOutcome LiftToFolder(const TableLiftRequest& request, core::Progress* progre
                             request.height,
                             request.size,
                             request.stated,
+                            request.budget,
                             false,
                             request.seed};
   const auto start = std::chrono::steady_clock::now();

@@ -19,6 +19,7 @@ struct TableLiftRequest {
   double height = 0.0;           // m; 0: sampled from the category's range
   asset_build::StatedSize size;  // overrides `height`
   physics_params::StatedPhysics stated;
+  asset_build::PartBudget budget;
   std::uint64_t seed = 1;
   std::filesystem::path output;  // the asset folder
   bool force = false;
