@@ -7,6 +7,36 @@
 #include "core/error.h"
 
 namespace simwright::asset_build {
+namespace {
+
+bool LimitsHulls(const PartBudget& budget) {
+  return budget.max_vertices > 0 || budget.max_faces > 0;
+}
+
+// Returns true if the parts are less precise than asked.
+bool IsExceeded(const core::TriangleMesh& solid, const geometry::DecompositionOptions& options,
+                const PartBudget& budget, const geometry::ConvexDecomposition& done) {
+  constexpr double kRoundOff = 1.01;  // of the limit: measured by samples
+  if (budget.tolerance > 0.0) return done.deviation > kRoundOff * budget.tolerance;
+  if (done.concavity > kRoundOff * options.threshold) return true;
+  // Concavity does not see the vertices that hulls lack; its unit is half the longest side.
+  const double unit = 0.5 * core::Bounds(solid).sizes().maxCoeff();
+  return LimitsHulls(budget) && done.deviation > kRoundOff * options.threshold * unit;
+}
+
+// Names the limits that the user gave and could raise.
+std::string Remedy(const PartBudget& budget) {
+  std::string options;
+  const auto add = [&](bool given, const char* option) {
+    if (given) options += (options.empty() ? "" : ", ") + std::string(option);
+  };
+  add(budget.max_parts > 0, "--max-parts");
+  add(budget.max_vertices > 0, "--max-vertices");
+  add(budget.max_faces > 0, "--max-faces");
+  return options.empty() ? "give a larger --part-tolerance" : "allow more with " + options;
+}
+
+}  // namespace
 
 void Validate(const PartBudget& budget) {
   const auto require = [](int value, int least, int most, const char* option) {
@@ -33,36 +63,41 @@ geometry::DecompositionOptions Limited(geometry::DecompositionOptions options,
                                        const PartBudget& budget) {
   if (budget.max_parts > 0) options.max_parts = budget.max_parts;
   if (budget.tolerance > 0.0) options.tolerance = budget.tolerance;
-  options.max_hull_vertices = MostVertices(budget);
+  if (LimitsHulls(budget)) options.max_hull_vertices = MostVertices(budget);
   return options;
 }
 
 void ReportBinding(const core::TriangleMesh& solid, const geometry::DecompositionOptions& options,
                    const PartBudget& budget, const geometry::ConvexDecomposition& done,
                    const std::string& place, core::Findings* findings) {
-  constexpr double kRoundOff = 1.01;  // of the limit: measured by samples
-  if (!budget.Any()) return;
-  const bool stated = budget.tolerance > 0.0;
-  const bool exceeded = stated ? done.deviation > kRoundOff * budget.tolerance
-                               : done.concavity > kRoundOff * options.threshold;
-  if (!exceeded) return;
+  if (!budget.Any() || !IsExceeded(solid, options, budget, done)) return;
   geometry::DecompositionOptions unlimited = options;
   unlimited.max_parts = 0;
-  unlimited.max_hull_vertices = std::max(unlimited.max_hull_vertices, kMostVertices);
+  if (LimitsHulls(budget)) unlimited.max_hull_vertices = kMostVertices;
   const geometry::ConvexDecomposition needed = geometry::Decompose(solid, unlimited);
   std::size_t vertices = 0;
   for (const geometry::ConvexPart& part : needed.parts) {
     vertices = std::max(vertices, part.hull.vertices.size());
   }
-  char text[240];
+  char text[280];
   char goal[64] = "the usual precision";
-  if (stated) std::snprintf(goal, sizeof goal, "a tolerance of %.2f mm", 1e3 * budget.tolerance);
+  if (budget.tolerance > 0.0) {
+    std::snprintf(goal, sizeof goal, "a tolerance of %.2f mm", 1e3 * budget.tolerance);
+  }
+  const bool reached = !IsExceeded(solid, options, budget, needed);
+  char more[120];
+  if (reached) {
+    std::snprintf(more, sizeof more, "would take %zu parts of up to %zu vertices",
+                  needed.parts.size(), vertices);
+  } else {
+    std::snprintf(more, sizeof more, "is not reached by %zu parts without limits either: %.2f mm",
+                  needed.parts.size(), 1e3 * needed.deviation);
+  }
   std::snprintf(text, sizeof text,
-                "%zu collision parts deviate from the solid by up to %.2f mm; %s would take %zu "
-                "parts of up to %zu vertices",
-                done.parts.size(), 1e3 * done.deviation, goal, needed.parts.size(), vertices);
-  findings->push_back({"part-budget", core::Severity::kWarning, place, text, done.deviation,
-                       "allow more with --max-parts, --max-vertices or --max-faces"});
+                "%zu collision parts deviate from the solid by up to %.2f mm; %s %s",
+                done.parts.size(), 1e3 * done.deviation, goal, more);
+  findings->push_back(
+      {"part-budget", core::Severity::kWarning, place, text, done.deviation, Remedy(budget)});
 }
 
 }  // namespace simwright::asset_build

@@ -60,7 +60,7 @@ btDefaultCollisionConstructionInfo Pools() {
 
 struct ArticulatedWorld::Bullet {
   explicit Bullet(const WorldOptions& options)
-      : compact(options.compact_solver), sleeping(options.sleeping) {
+      : compact(options.compact_solver), sleeping(options.sleeping && options.compact_solver) {
     world = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, &solver,
                                                        &configuration);
     broadphase.getOverlappingPairCache()->setOverlapFilterCallback(exclusion.callback());
@@ -181,8 +181,15 @@ void ArticulatedWorld::Bullet::AddJoints(const ArticulatedBody& body, double sca
     entry.moves = true;
     entry.friction = scale * joint.friction;
     entry.motor = {0.0, -entry.friction, entry.friction, scale * joint.damping};
-    const int leader =
-        joint.mimic ? loaded->Joint(body.kinematics->JointIndex(joint.mimic->joint)) : -1;
+    int leader = -1;
+    if (joint.mimic) {
+      const int led_by = body.kinematics->JointIndex(joint.mimic->joint);
+      if (!body.joints()[static_cast<size_t>(led_by)].Moves()) {
+        throw core::Error("mimics joint '" + joint.mimic->joint + "', which does not move",
+                          "joint " + joint.name, "make it fixed, or let it mimic another joint");
+      }
+      leader = loaded->Joint(led_by);
+    }
     const int link = loaded->Joint(i);
     if (compact) {
       const bool limited = joint.type != assets::JointType::kContinuous;
@@ -223,7 +230,7 @@ void ArticulatedWorld::Bullet::Step(double dt) {
     info.m_stepCount = 0;
     world->computeOverlappingPairs();
     if (sleeping) {
-      compact_solver.PutToSleep(moving_colliders, broadphase.getOverlappingPairCache());
+      compact_solver.PutToSleep(dt, moving_colliders, broadphase.getOverlappingPairCache());
     }
     dispatcher.dispatchAllCollisionPairs(broadphase.getOverlappingPairCache(), info, &dispatcher);
     compact_solver.Step(dt, world->getSolverInfo().m_numIterations, FromBullet(world->getGravity()),
@@ -260,7 +267,7 @@ ArticulatedWorld::ArticulatedWorld(const WorldOptions& options)
   bullet_->floor = std::make_unique<btRigidBody>(info);
   bullet_->floor->setUserIndex(kFloorUserIndex);
   bullet_->world->addRigidBody(bullet_->floor.get(), kFloorGroup, btBroadphaseProxy::AllFilter);
-  if (options.sleeping) bullet_->floor->forceActivationState(ISLAND_SLEEPING);
+  if (bullet_->sleeping) bullet_->floor->forceActivationState(ISLAND_SLEEPING);
 }
 
 ArticulatedWorld::~ArticulatedWorld() = default;
@@ -327,6 +334,7 @@ void ArticulatedWorld::SetPosition(int body, int joint, double position) {
   LoadedTree& loaded = bullet_->Body(body);
   loaded.multi->setJointPos(loaded.Joint(joint), position);
   loaded.multi->setJointVel(loaded.Joint(joint), 0.0);
+  if (bullet_->compact) bullet_->compact_solver.ForgetImpulses(body);
   bullet_->UpdatePoses(&loaded);
 }
 
@@ -337,6 +345,7 @@ void ArticulatedWorld::SetRootPose(int body, const Eigen::Isometry3d& world_from
       ToBullet(Eigen::Isometry3d(world_from_root * loaded.tree->links[0].link_from_principal)));
   loaded.multi->setBaseVel(btVector3(0, 0, 0));
   loaded.multi->setBaseOmega(btVector3(0, 0, 0));
+  if (bullet_->compact) bullet_->compact_solver.ForgetImpulses(body);
   bullet_->UpdatePoses(&loaded);
 }
 
@@ -376,8 +385,7 @@ void ArticulatedWorld::Release(int body, int joint) {
 }
 
 void ArticulatedWorld::LimitMimic(int body, int joint, double max_force) {
-  LoadedJoint& entry =
-      bullet_->bodies[static_cast<size_t>(body)]->joints[static_cast<size_t>(joint)];
+  LoadedJoint& entry = bullet_->Wake(body).joints.at(static_cast<size_t>(joint));
   entry.gear_force = max_force;
   if (entry.gear) entry.gear->setMaxAppliedImpulse(max_force * options_.time_step);
 }

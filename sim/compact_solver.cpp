@@ -124,7 +124,10 @@ void CompactSolver::AddLimits(double dt, TreeDynamics* dynamics, SolverJoint* jo
 
 void CompactSolver::AddGear(double dt, TreeDynamics* dynamics, SolverJoint* joint) {
   const double bound = *joint->gear_force * dt;
-  if (bound == 0.0) return;
+  if (bound == 0.0) {
+    joint->gear_impulse = 0.0;
+    return;
+  }
   const int stride = dynamics->stride();
   const int follower = dynamics->Coordinate(joint->link);
   const int leader = dynamics->Coordinate(joint->leader);
@@ -149,6 +152,13 @@ void CompactSolver::AddGear(double dt, TreeDynamics* dynamics, SolverJoint* join
   row.impulse = kWarmShare * joint->gear_impulse;
   gears_.push_back(row);
   gear_kept_.push_back(&joint->gear_impulse);
+}
+
+void CompactSolver::ForgetImpulses(int tree) {
+  for (SolverJoint& joint : trees_[static_cast<size_t>(tree)].joints) {
+    joint.motor_impulse = joint.limit_impulses[0] = joint.limit_impulses[1] = 0.0;
+    joint.gear_impulse = 0.0;
+  }
 }
 
 void CompactSolver::WarmStart() {

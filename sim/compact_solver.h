@@ -45,14 +45,18 @@ class CompactSolver {
   void SetDriven(int tree) { trees_[static_cast<size_t>(tree)].driven = true; }
   // Puts trees to sleep that have been still for a fifth of a second, while whatever is near them
   // is still and not driven, and wakes the others. A tree that sleeps keeps its pose and its
-  // contacts, and costs nothing. `colliders`: by tree, those of the links that move. `pairs`: of
-  // the broadphase, which come 4 cm before a contact.
-  void PutToSleep(const std::vector<std::vector<btCollisionObject*>>& colliders,
+  // contacts, and costs nothing. `dt`: s, of a step. `colliders`: by tree, those of the links that
+  // move. `pairs`: of the broadphase, which come 4 cm before a contact.
+  void PutToSleep(double dt, const std::vector<std::vector<btCollisionObject*>>& colliders,
                   btOverlappingPairCache* pairs);
   bool IsAsleep(int tree) const { return trees_[static_cast<size_t>(tree)].asleep; }
   void AddJoint(int tree, const SolverJoint& joint) {
     trees_[static_cast<size_t>(tree)].joints.push_back(joint);
   }
+
+  // Drops the impulses of the tree's joints with which the next step would start: it has been
+  // moved.
+  void ForgetImpulses(int tree);
 
   // Advances all trees by `dt` (s) under `gravity` (m/s^2) and the contacts of `dispatcher`, whose
   // points keep their impulses for the next step.
@@ -112,6 +116,7 @@ class CompactSolver {
   void KeepImpulses();
 
   std::vector<Tree> trees_;
+  int steps_to_sleep_ = 1;
   std::vector<double> numbers_;  // the Jacobians and responses of the rows
   size_t taken_ = 0;
   std::vector<JointRow> joints_;

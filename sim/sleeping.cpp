@@ -1,4 +1,7 @@
 // The sleep of trees at rest in CompactSolver.
+#include <algorithm>
+#include <cmath>
+
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -8,7 +11,7 @@
 namespace simwright::sim {
 namespace {
 
-constexpr int kStepsToSleep = 48;  // 0.2 s at 240 Hz
+constexpr double kSecondsToSleep = 0.2;
 
 }  // namespace
 
@@ -17,13 +20,15 @@ bool CompactSolver::IsStill(const btCollisionObject& object) const {
   if (collider == nullptr) return true;  // the floor
   const Tree& tree = trees_[static_cast<size_t>(object.getUserIndex())];
   if (!tree.dynamics->Moves(collider->m_link)) return true;
-  return !tree.driven && tree.dynamics->still_steps() >= kStepsToSleep;
+  return !tree.driven && tree.dynamics->still_steps() >= steps_to_sleep_;
 }
 
-void CompactSolver::PutToSleep(const std::vector<std::vector<btCollisionObject*>>& colliders,
+void CompactSolver::PutToSleep(double dt,
+                               const std::vector<std::vector<btCollisionObject*>>& colliders,
                                btOverlappingPairCache* pairs) {
+  steps_to_sleep_ = std::max(1, static_cast<int>(std::lround(kSecondsToSleep / dt)));
   for (Tree& tree : trees_) {
-    tree.may_sleep = !tree.driven && tree.dynamics->still_steps() >= kStepsToSleep;
+    tree.may_sleep = !tree.driven && tree.dynamics->still_steps() >= steps_to_sleep_;
   }
   const btBroadphasePairArray& all = pairs->getOverlappingPairArray();
   for (int i = 0; i < all.size(); ++i) {

@@ -93,6 +93,47 @@ TEST(Articulated, AJointFarBeyondItsLimitReturns) {
   EXPECT_LT(fastest, 2.0);
 }
 
+// The first step after a reset does not depend on the motion before it.
+TEST(Articulated, AJointThatIsSetForgetsItsMotor) {
+  const ArticulatedBody body = ArticulatedBodyFrom(assets::ModelOf(
+      OneJoint(JointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25}, 0.2, 0.1)));
+  ArticulatedWorld fresh, used;
+  for (ArticulatedWorld* world : {&fresh, &used}) world->Add(body);
+  for (int i = 0; i < 60; ++i) {
+    used.Drive(0, 0, 2.0, 30.0);
+    used.Step();
+  }
+  used.Release(0, 0);
+  for (ArticulatedWorld* world : {&fresh, &used}) {
+    world->SetPosition(0, 0, 0.4);
+    world->SetIterations(1);
+    world->Step();
+  }
+  EXPECT_EQ(used.Position(0, 0), fresh.Position(0, 0));
+  EXPECT_EQ(used.Velocity(0, 0), fresh.Velocity(0, 0));
+}
+
+TEST(Articulated, AJointThatMimicsAFixedOneIsRefused) {
+  assets::ArticulatedAsset asset =
+      OneJoint(JointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25}, 0.0, 0.0);
+  asset.links.push_back(BoxLink("hand", {0.05, 0.05, 0.05}, {0, 0, 0}, 800.0));
+  assets::Joint fixed;
+  fixed.name = "hand_joint";
+  fixed.parent = "arm";
+  fixed.child = "hand";
+  fixed.type = JointType::kFixed;
+  asset.joints.push_back(fixed);
+  asset.joints.front().mimic = assets::JointMimic{"hand_joint", 1.0, 0.0};
+  const ArticulatedBody body = ArticulatedBodyFrom(assets::ModelOf(asset));
+  ArticulatedWorld world;
+  try {
+    world.Add(body);
+    FAIL() << "was accepted";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("hand_joint"), std::string::npos);
+  }
+}
+
 // T = 2 pi sqrt(I / (m g l)) for small swings about the pivot.
 TEST(Articulated, APendulumSwingsWithItsPeriodInBothEngines) {
   Rigs rigs(OneJoint(JointType::kRevolute, Eigen::Vector3d::UnitY(), {0, 0, -0.25}, 0.0, 0.0));
