@@ -41,7 +41,8 @@ class CompactSolver {
   // Adds a tree, whose index is the user index of its colliders; `dynamics` must outlive the
   // solver.
   void AddTree(TreeDynamics* dynamics) { trees_.push_back({dynamics, {}}); }
-  // Tells that a motor drives joints of the tree from now on: it and what is near it stays awake.
+  // Keeps the tree, whose joints a motor drives, and what is near it awake from now on, also after
+  // the motor is released.
   void SetDriven(int tree) { trees_[static_cast<size_t>(tree)].driven = true; }
   // Puts trees to sleep that have been still for a fifth of a second, while whatever is near them
   // is still and not driven, and wakes the others. A tree that sleeps keeps its pose and its
