@@ -1,9 +1,9 @@
 """Runs an exported policy in MuJoCo, in the exported world of a task, and prints the outcome.
 
-    simwright export tasks.json --task open_all_of_drawer_unit_1 --world --format mjcf -o world
-    simwright export --skill open_drawer --format onnx -o open_drawer.onnx
+    simwright export tasks.json --task pick_up_cup_1 --world --format mjcf -o world
+    simwright export --skill pick_up_cup --format onnx -o pick_up_cup.onnx
     pip install mujoco onnxruntime numpy
-    python3 policy_in_mujoco.py open_drawer.onnx world...
+    python3 policy_in_mujoco.py pick_up_cup.onnx world...
 """
 
 import sys

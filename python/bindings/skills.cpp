@@ -21,6 +21,7 @@
 #include "rl/policy_file.h"
 #include "rl/wilson_interval.h"
 #include "skills/skill_evaluation.h"
+#include "skills/skill_options.h"
 #include "workflows/priors/models_folder.h"
 #include "workflows/skills/skill_suite.h"
 #include "workflows/tasks/long_tasks.h"
@@ -95,6 +96,10 @@ void BindPolicy(nb::module_& module) {
       .def_prop_ro("observation_size", &rl::Policy::observation_size, "O")
       .def_prop_ro("action_size", &rl::Policy::action_size, "A")
       .def_prop_ro("metadata", &rl::Policy::metadata, "What the file states (str to str).")
+      .def_prop_ro(
+          "action_space",
+          [](const rl::Policy& policy) { return skills::NameOf(workflows::ActionSpaceOf(policy)); },
+          "The action space of its actions, for the environment that it acts in (str).")
       .def_prop_ro(
           "std",
           [](nb::handle self) {

@@ -5,9 +5,9 @@
     envs = gymnasium.make_vec("simwright/OpenDrawer-v0", num_envs=64)
     env = gymnasium.make("simwright/Task-v0", tasks="tasks.json", task="pick_up_cup_*")
 
-An action lasts 0.05 s. Action spaces (docs/python.md): "focus" (the policies' own, relative to the
-target), "guided", "delta", "osc_delta" (robosuite's OSC_POSE), "absolute", "joints" and
-"joint_targets"; all are boxes in [-1, 1].
+An action lasts 0.05 s. Action spaces (docs/python.md): "focus" (relative to the target), "guided"
+(added to the scripted expert's), "delta", "osc_delta" (robosuite's OSC_POSE), "absolute", "joints"
+and "joint_targets"; all are boxes in [-1, 1]. ``policy.action_space`` names that of a policy.
 """
 
 from __future__ import annotations

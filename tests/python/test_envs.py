@@ -218,7 +218,7 @@ def test_the_expert_opens_the_drawer_and_ends_the_episode(drawer):
 def test_the_shipped_policy_does_in_python_what_it_does_in_the_program():
     policy = sw.skills.load("open_drawer")
     measured = sw.skills.evaluate("open_drawer", episodes=12, seed=5)
-    env = envs.SkillEnv(cell="open_drawer", split="unseen")
+    env = envs.SkillEnv(cell="open_drawer", split="unseen", action_space=policy.action_space)
     successes = 0
     observation, _ = env.reset(seed=5)
     for _ in range(12):
@@ -232,6 +232,13 @@ def test_the_shipped_policy_does_in_python_what_it_does_in_the_program():
     assert successes == measured["successes"] >= 8
     low, high = measured["interval"]
     assert low < measured["success"] < high or measured["success"] == 1.0
+
+
+def test_policies_name_their_action_space():
+    # Files of before guided actions state none.
+    assert sw.skills.load("close_drawer").action_space == "focus"
+    assert sw.skills.load("pick_up_cup").action_space == "focus"
+    assert sw.skills.load("open_drawer").action_space == "guided"
 
 
 def test_a_task_file():

@@ -53,9 +53,10 @@ def picture(mesh: simwright.Mesh) -> NDArray[np.uint8]:
 def act(folder: Path) -> Iterator[float]:
     """Yields the rewards of an episode."""
     side = cameras.camera("side", position=(0.5, 1.2, 0.6), target=np.array([0.5, 0.0, 0.2]))
-    env = envs.SkillEnv("open_drawer", cameras=["wrist", side], images=["rgb", "depth"],
-                        look={"tint": 0.2}, render_mode="rgb_array")
     policy = skills.load("open_drawer")
+    env = envs.SkillEnv("open_drawer", cameras=["wrist", side], images=["rgb", "depth"],
+                        look={"tint": 0.2}, render_mode="rgb_array",
+                        action_space=policy.action_space)
     observation, _ = env.reset(seed=1)
     ended = False
     while not ended:
