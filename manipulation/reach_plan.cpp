@@ -43,6 +43,7 @@ constexpr int kMostCandidates = 6;
 // width.
 constexpr double kRise = 1.0;
 constexpr double kPalmEdge = 0.04;  // m: the palm edge's drop over 1 - cos(lean)
+constexpr double kPalmClearance = 0.003;  // m, of a leaning gripper above the rim of a cup
 constexpr double kReachTurns[] = {0.25 * M_PI, 0.5 * M_PI, 0.75 * M_PI};  // of the closing axis
 constexpr double kSameLine = 0.97;  // the cosine of about 14 degrees
 
@@ -171,7 +172,8 @@ Isometry3d PushingPose(const Interaction& interaction, const tasks::WorldState& 
 // Returns the height (m) by which a leaning gripper grasps an object of `height` higher: an edge of
 // its palm comes down on the object.
 double GraspRise(double pitch, double height) {
-  return std::min(kPalmEdge * (1.0 - std::cos(pitch)), 0.25 * height);
+  const double clearance = kPalmClearance * std::min(1.0, std::abs(pitch) / kPitches[1]);
+  return std::min(kPalmEdge * (1.0 - std::cos(pitch)) + clearance, 0.25 * height);
 }
 
 std::span<const double> PitchesOf(const Interaction& interaction,

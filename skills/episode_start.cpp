@@ -262,6 +262,9 @@ void ApplyPlan(const Skill& skill, const SkillVariant& variant, const manipulati
   start->waypoints = WaypointsTo(skill, variant, start->state, plan);
 }
 
+// The lean (rad) from which on a gripper that holds an object took it leaning.
+constexpr double kLeaning = 0.3;
+
 // Plans from `from` (J), else from home after folding the arm; first with a clearance to objects,
 // then without.
 std::optional<manipulation::ReachPlan> PlanFromAnywhere(const Skill& skill,
@@ -435,10 +438,12 @@ StartState PlannedFrom(const Skill& skill, const StartState& from, core::Rng& rn
   start.grasp = -1;
   start.retreat.setZero();
   start.waypoints.clear();
-  if (start.held >= 0 && variant.room) {
-    // It keeps its lean, even if the object has rotated in the grasp: upright, it may not fit.
-    start.pitch = manipulation::PitchOf(variant.subtask.start.world_from_robot *
-                                        robot::ForwardKinematics(skill.robot->arm, start.arm));
+  if (start.held >= 0) {
+    const double lean = manipulation::PitchOf(variant.subtask.start.world_from_robot *
+                                              robot::ForwardKinematics(skill.robot->arm, start.arm));
+    // A gripper keeps its lean, even if the object has rotated in the grasp: upright, it may not
+    // fit into a receptacle, and an object that it took leaning would be set down tilted.
+    if (variant.room || std::abs(lean) > kLeaning) start.pitch = lean;
   }
   if (variant.target && start.held < 0) PlanRetreatAndReach(skill, variant, rng, &start);
   if (everything) SampleBodies(variant, skill.options, rng, &start);
