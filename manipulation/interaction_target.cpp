@@ -27,9 +27,6 @@ constexpr double kLowestPush = 0.025;      // m above the floor: fingertips have
 constexpr double kSpare = 0.01;            // m that the gripper opens wider than its target
 constexpr double kGraspFromBelow = 0.5;    // of a direction's rise: more comes from below
 constexpr double kWidthTolerance = 0.002;  // m: widths that count as equal
-// The same as a share: the extreme points of a round link are up to 27 degrees apart about the
-// vertical, and its width varies by up to 4.5 % with them.
-constexpr double kRoundness = 0.05;
 constexpr double kHalfWall = 0.003;        // m: cup walls are 3 to 8 mm thick
 
 bool IsPlace(RewardInput input) {
@@ -316,7 +313,7 @@ double ThinDirection(const ArticulatedObject& object, const Eigen::Isometry3d& w
   }
   double best = 0.0, nearest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kDirections; ++i) {
-    if (widths[i] > thinnest + std::max(kWidthTolerance, kRoundness * thinnest)) continue;
+    if (widths[i] > thinnest + kWidthTolerance) continue;
     // Both senses of a direction are one: the difference lies in [-pi/2, pi/2].
     const double off =
         std::remainder(std::numbers::pi * i / kDirections - wished, std::numbers::pi);

@@ -67,9 +67,8 @@ Eigen::Isometry3d GraspPoseAtJoint(const tasks::WorldModel& model, const tasks::
                                    const InteractionTarget& target);
 
 // Returns the horizontal direction (yaw about the world's z axis, rad) along which `object` is
-// narrowest, within pi/2 of the yaw `wished` (rad). Among directions whose width is within 5 % or
-// 2 mm of the smallest, returns the one nearest to `wished`: a round object may be grasped along
-// any.
+// narrowest, within pi/2 of the yaw `wished` (rad). Among directions whose width is within 2 mm of
+// the smallest, returns the one nearest to `wished`: a round object may be grasped along any.
 double ThinDirection(const tasks::ArticulatedObject& object,
                      const Eigen::Isometry3d& world_from_object, double wished);
 

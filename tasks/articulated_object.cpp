@@ -11,30 +11,42 @@
 namespace simwright::tasks {
 namespace {
 
-// Returns the extreme points along 98 directions: the axes, the diagonals, and the directions
-// between them.
-std::vector<Eigen::Vector3d> Outermost(const std::vector<const core::TriangleMesh*>& meshes) {
-  std::vector<Eigen::Vector3d> outline;
+constexpr int kAround = 36;  // directions about z: a round object is then 0.4 % wide of round
+
+// Returns 98 directions, the axes, the diagonals and those between them, and more about z.
+std::vector<Eigen::Vector3d> OutwardDirections() {
+  std::vector<Eigen::Vector3d> directions;
   for (int x = -2; x <= 2; ++x) {
     for (int y = -2; y <= 2; ++y) {
       for (int z = -2; z <= 2; ++z) {
         const int largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
         const bool multiple = largest == 2 && x % 2 == 0 && y % 2 == 0 && z % 2 == 0;
-        if (largest == 0 || multiple) continue;
-        const Eigen::Vector3d direction(x, y, z);
-        const Eigen::Vector3d* farthest = nullptr;
-        for (const core::TriangleMesh* mesh : meshes) {
-          for (const Eigen::Vector3d& vertex : mesh->vertices) {
-            if (farthest == nullptr || direction.dot(vertex) > direction.dot(*farthest)) {
-              farthest = &vertex;
-            }
-          }
-        }
-        if (farthest == nullptr) return {};
-        if (std::find(outline.begin(), outline.end(), *farthest) == outline.end()) {
-          outline.push_back(*farthest);
+        if (largest > 0 && !multiple) directions.emplace_back(x, y, z);
+      }
+    }
+  }
+  for (int i = 0; i < kAround; ++i) {
+    const double angle = 2.0 * M_PI * i / kAround;
+    directions.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+  }
+  return directions;
+}
+
+// Returns the extreme points along OutwardDirections, each once.
+std::vector<Eigen::Vector3d> Outermost(const std::vector<const core::TriangleMesh*>& meshes) {
+  std::vector<Eigen::Vector3d> outline;
+  for (const Eigen::Vector3d& direction : OutwardDirections()) {
+    const Eigen::Vector3d* farthest = nullptr;
+    for (const core::TriangleMesh* mesh : meshes) {
+      for (const Eigen::Vector3d& vertex : mesh->vertices) {
+        if (farthest == nullptr || direction.dot(vertex) > direction.dot(*farthest)) {
+          farthest = &vertex;
         }
       }
+    }
+    if (farthest == nullptr) return {};
+    if (std::find(outline.begin(), outline.end(), *farthest) == outline.end()) {
+      outline.push_back(*farthest);
     }
   }
   return outline;

@@ -18,7 +18,7 @@ namespace simwright::tasks {
 struct ObjectLink {
   std::string label;  // door, handle, drawer ...; may be empty
   int joint = -1;     // index into ArticulatedObject::joints; -1 where it is fixed to its parent
-  // The extreme points of its shapes, at most 98, m, link frame; none where it has no shape.
+  // The extreme points of its shapes, at most 134, m, link frame; none where it has no shape.
   std::vector<Eigen::Vector3d> extreme_points;
   Eigen::AlignedBox3d box;                           // bounding box of the shapes, link frame; may
                                                      // be empty
