@@ -10,6 +10,7 @@
 #include "manipulation/grasp_ranking.h"
 #include "manipulation/ik_solutions.h"
 #include "manipulation/joint_target.h"
+#include "manipulation/link_pose.h"
 #include "manipulation/tool_path.h"
 
 namespace simwright::manipulation {
@@ -114,6 +115,37 @@ struct Candidate {
   double seconds = 0.0;  // to reach it, every joint at its highest speed
 };
 
+// Returns the objects in a sliding part of the target's object: those whose middles are in its AABB.
+std::vector<size_t> ObjectsInPart(const Interaction& interaction, const tasks::WorldState& state) {
+  const InteractionTarget& target = *interaction.target;
+  const tasks::ObjectJoint& joint = interaction.model.objects[static_cast<size_t>(target.object)]
+                                        .joints[static_cast<size_t>(target.joint)];
+  std::vector<size_t> inside;
+  if (joint.type != reward::RewardJointType::kPrismatic) return inside;
+  const Eigen::AlignedBox3d part =
+      tasks::WorldAabb(interaction.model, state, target.object, joint.link);
+  for (const int object : interaction.placed) {
+    if (object == target.object) continue;
+    const Vector3d middle = tasks::WorldAabb(interaction.model, state, object).center();
+    if (part.contains(middle)) inside.push_back(static_cast<size_t>(object));
+  }
+  return inside;
+}
+
+// Moves the target's joint to `position` (rad or m), and `carried` with its part.
+void MovePart(const Interaction& interaction, double position, const std::vector<size_t>& carried,
+              tasks::WorldState* state) {
+  const InteractionTarget& target = *interaction.target;
+  const auto object = static_cast<size_t>(target.object), j = static_cast<size_t>(target.joint);
+  const int link = interaction.model.objects[object].joints[j].link;
+  const Isometry3d before = WorldFromLink(interaction.model, *state, target.object, link);
+  state->joints[object][j] = position;
+  const Isometry3d after = WorldFromLink(interaction.model, *state, target.object, link);
+  for (const size_t other : carried) {
+    state->roots[other] = after * before.inverse() * state->roots[other];
+  }
+}
+
 // Returns true if the tool can follow the joint path and, if required, the arm except its fingers
 // is collision-free.
 bool MovesJoint(const PlanningArm& context, const Interaction& interaction, tasks::WorldState state,
@@ -127,8 +159,9 @@ bool MovesJoint(const PlanningArm& context, const Interaction& interaction, task
   const size_t followed = requirements.half ? positions.size() / 2 : positions.size();
   const double turned =
       requirements.half ? OrientationTolerance(interaction) : CartesianFollower::kTurned;
+  const std::vector<size_t> carried = ObjectsInPart(interaction, state);
   for (size_t i = 0; i < followed; ++i) {
-    state.joints[object][j] = positions[i];
+    MovePart(interaction, positions[i], carried, &state);
     const Isometry3d next = GraspPose(interaction, state, across, candidate.pitch);
     across = next.linear().col(1);
     if (!follower->MoveTo(next, turned)) return false;
