@@ -18,6 +18,7 @@
 #include "geometry/convex_hull.h"
 #include "geometry/mesh_validity.h"
 #include "geometry/solid.h"
+#include "geometry/surface_distance.h"
 #include "geometry/weld.h"
 
 namespace simwright::importers {
@@ -36,6 +37,7 @@ constexpr size_t kMostTextureColors = 16;  // with more, a texture is averaged
 // as precise.
 constexpr double kWholePrecision = 0.5, kCoarsest = 3.0;
 constexpr int kFaceBudget = 8000;  // of a component's solid
+constexpr int kHullSamples = 2000;
 
 const std::vector<UrdfShape>& ShapesOf(const UrdfLink& link) {
   return link.visuals.empty() ? link.collisions : link.visuals;
@@ -190,17 +192,30 @@ bool FillsItsHull(core::TriangleMesh piece, const core::TriangleMesh& hull) {
   return std::abs(geometry::SignedVolume(piece)) > kConvexShare * geometry::SignedVolume(hull);
 }
 
+// Returns true if `hull` stays within the tolerance that the budget states, if any, of `piece`, and
+// `thickness` (m) that it was given.
+bool IsWithinTolerance(const core::TriangleMesh& hull, const core::TriangleMesh& piece,
+                       double thickness, const asset_build::PartBudget& budget) {
+  if (budget.tolerance == 0.0) return true;
+  const std::vector<double> distances =
+      geometry::DistancesToSurface(geometry::SampleSurface(hull, kHullSamples, 1), piece);
+  return *std::max_element(distances.begin(), distances.end()) <= budget.tolerance + thickness;
+}
+
 std::vector<core::TriangleMesh> PartsOfPiece(const core::TriangleMesh& piece, double whole,
                                              const asset_build::PartBudget& budget,
                                              const std::string& link, core::Findings* findings) {
   const int most_vertices = asset_build::MostVertices(budget);
-  if (IsFlat(piece)) {
-    return {geometry::ThickenedConvexHull(piece.vertices, kSheet, most_vertices)};
-  }
-  const core::TriangleMesh hull = geometry::ConvexHull(piece.vertices);
   const double size = core::Bounds(piece).diagonal().norm();
-  if (size < kSmall * whole || FillsItsHull(piece, hull)) {
-    return {geometry::ConvexHull(piece.vertices, most_vertices)};
+  if (IsFlat(piece)) {
+    core::TriangleMesh sheet = geometry::ThickenedConvexHull(piece.vertices, kSheet, most_vertices);
+    if (IsWithinTolerance(sheet, piece, kSheet, budget)) return {std::move(sheet)};
+  } else {
+    const core::TriangleMesh hull = geometry::ConvexHull(piece.vertices);
+    if (size < kSmall * whole || FillsItsHull(piece, hull)) {
+      core::TriangleMesh one = geometry::ConvexHull(piece.vertices, most_vertices);
+      if (IsWithinTolerance(one, piece, 0.0, budget)) return {std::move(one)};
+    }
   }
   // Errors are relative to the whole asset: a small component may be coarser relative to its own
   // size.

@@ -27,9 +27,10 @@ bool HasOwnCollisions(const assets::UrdfLink& link);
 // fiftieth of `whole` (the asset's diagonal, m) become hulls, those inside another part are
 // removed, and if a link has more than 256 parts only the largest are kept, which is reported. With
 // `hulls`, each collision mesh of a link becomes a single hull, as in Bullet and MuJoCo. `budget`
-// limits the parts of each link: a component is decomposed within it, and parts beyond its number
-// are merged where that adds the least volume, which is reported ("part-budget"). Components of all
-// links are processed in parallel. (links)
+// limits the parts of each link: a component whose hull does not meet its tolerance is decomposed
+// within it, whatever its size or thickness, and parts beyond its number are merged where that adds
+// the least volume, which is reported ("part-budget"). Components of all links are processed in
+// parallel. (links)
 std::vector<std::vector<core::TriangleMesh>> ConvexPartsOf(
     const std::vector<assets::UrdfLink>& links, double whole, bool hulls,
     const asset_build::PartBudget& budget, core::Findings* findings);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/image.h"
+#include "geometry/surface_distance.h"
 #include "geometry/weld.h"
 #include "tests/geometry/solid_shapes.h"
 
@@ -124,6 +125,59 @@ TEST(LinkParts, AreMergedToTheBudgetAndReported) {
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].code, "part-budget");
   EXPECT_EQ(findings[0].place, "shelf");
+}
+
+// Returns an L of two arms, `size` long and a fifth as wide, `thickness` thick; 0: a flat sheet.
+core::TriangleMesh Bracket(double size, double thickness) {
+  const double width = 0.2 * size;
+  std::vector<Eigen::Vector2d> corners = {{0, 0},         {size, 0},     {size, width},
+                                          {width, width}, {width, size}, {0, size}};
+  core::TriangleMesh mesh;
+  for (const double z : {0.0, thickness}) {
+    for (const Eigen::Vector2d& corner : corners)
+      mesh.vertices.emplace_back(corner[0], corner[1], z);
+    if (thickness == 0.0) break;
+  }
+  const std::vector<Eigen::Vector3i> faces = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
+  for (const Eigen::Vector3i& face : faces) {
+    mesh.triangles.push_back(face);
+    if (thickness > 0.0) mesh.triangles.emplace_back(face[0] + 6, face[2] + 6, face[1] + 6);
+  }
+  for (int i = 0; thickness > 0.0 && i < 6; ++i) {
+    const int j = (i + 1) % 6;
+    mesh.triangles.emplace_back(i, i + 6, j);
+    mesh.triangles.emplace_back(j, i + 6, j + 6);
+  }
+  return mesh;
+}
+
+// Flat and small pieces keep one hull, unless a tolerance is stated that it does not meet.
+TEST(LinkParts, OfFlatAndSmallPiecesMeetAStatedTolerance) {
+  constexpr double kTolerance = 0.002, kSheet = 0.002;  // m
+  for (const double thickness : {0.0, 0.01}) {
+    assets::UrdfLink link;
+    link.name = "bracket";
+    assets::UrdfShape shape;
+    shape.mesh = Bracket(0.1, thickness);
+    link.collisions.push_back(shape);
+    core::Findings findings;
+    const double whole = 10.0;  // m: the bracket is small
+    EXPECT_EQ(ConvexPartsOf({link}, whole, false, {}, &findings)[0].size(), 1u) << thickness;
+    asset_build::PartBudget budget;
+    budget.tolerance = kTolerance;
+    const auto parts = ConvexPartsOf({link}, whole, false, budget, &findings)[0];
+    EXPECT_GE(parts.size(), 2u) << thickness;
+    double farthest = 0.0, volume = 0.0;
+    for (const core::TriangleMesh& part : parts) {
+      volume += geometry::SignedVolume(part);
+      for (const double distance :
+           geometry::DistancesToSurface(geometry::SampleSurface(part, 1000, 3), shape.mesh)) {
+        farthest = std::max(farthest, distance);
+      }
+    }
+    EXPECT_LT(farthest, kTolerance + kSheet + 0.5 * thickness) << thickness;
+    EXPECT_GT(volume, 0.0);
+  }
 }
 
 }  // namespace
