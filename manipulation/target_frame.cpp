@@ -28,6 +28,9 @@ constexpr double kHasFallen = 0.7;   // of an object's upward axis, upwards
 constexpr int kRestUpdates = 4;      // updates
 constexpr int kOpeningUpdates = 10;  // updates that the gripper waits to open
 constexpr int kStuckUpdates = 10;    // updates without progress; fingers open in 8
+// m ahead of the gripper on the straight line of its retreat: the arm moves straight in joint space,
+// and on a longer way fingers in a cup would leave the line and drag it along.
+constexpr double kRetreatLead = 0.06;
 constexpr int kLongestRetreat = 30;  // updates, 1.5 s at 20 Hz; an obstacle does not go away
 
 // Returns TargetFrame::motion_direction for the frame at `world_from_target`.
@@ -138,10 +141,21 @@ void TargetFrame::ComputeRetreat(const tasks::WorldState& state) {
   retreat_distance_ = displacement.norm();
 }
 
+// Returns the pose on the line of the retreat that is next for the gripper.
+Eigen::Isometry3d TargetFrame::NextOfRetreat(const tasks::WorldState& state) const {
+  const Vector3d way = retreat_.translation() - before_.translation();
+  const double length = way.norm();
+  const double done = (state.gripper.translation() - before_.translation()).dot(way) / length;
+  Eigen::Isometry3d next = retreat_;
+  next.translation() =
+      before_.translation() + std::min(1.0, (std::max(0.0, done) + kRetreatLead) / length) * way;
+  return next;
+}
+
 void TargetFrame::Update(const tasks::WorldState& state) {
   if (!interaction_.target) return;
   if (Withdraws(state)) {
-    world_from_target_ = updates_opening_ < kOpeningUpdates ? before_ : retreat_;
+    world_from_target_ = updates_opening_ < kOpeningUpdates ? before_ : NextOfRetreat(state);
     return;
   }
   Follow(state);

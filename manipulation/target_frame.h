@@ -51,6 +51,7 @@ class TargetFrame {
   Eigen::Vector3d PlaceAtDestination(const tasks::WorldState& state,
                                      const Eigen::Vector3d& grasp) const;
   bool Withdraws(const tasks::WorldState& state);
+  Eigen::Isometry3d NextOfRetreat(const tasks::WorldState& state) const;
   void ComputeRetreat(const tasks::WorldState& state);
 
   const Interaction& interaction_;

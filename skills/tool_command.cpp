@@ -131,11 +131,30 @@ double Accelerated(double rate, double wanted, const robot::JointLimits& limits,
   return rate + std::clamp(wanted - rate, -most, most);
 }
 
+// Returns the share of the way from the rates of `command` to `wanted` (J) that all joints can be
+// accelerated by in one step.
+double CommonShare(const Skill& skill, const robot::JointVector& wanted,
+                   const ArmCommand& command) {
+  const double dt = 1.0 / skill.options.control_rate;
+  double share = 1.0;
+  for (Eigen::Index j = 0; j < wanted.size(); ++j) {
+    const auto index = static_cast<size_t>(skill.robot->arm_joints[static_cast<size_t>(j)]);
+    const double reached = Accelerated(command.rate[j], wanted[j], skill.robot->limits[index], dt,
+                                       command.pace);
+    const double missing = wanted[j] - command.rate[j];
+    if (missing != 0.0) share = std::min(share, (reached - command.rate[j]) / missing);
+  }
+  return share;
+}
+
 void MoveArm(const Skill& skill, const robot::JointVector& goal, const robot::JointVector& actual,
              ArmCommand* command) {
   const double dt = 1.0 / skill.options.control_rate, lead = skill.options.longest_lead;
-  const robot::JointVector wanted =
+  robot::JointVector wanted =
       WantedRate(skill, command->sent, goal - command->sent, command->pace);
+  if (command->together) {
+    wanted = command->rate + CommonShare(skill, wanted, *command) * (wanted - command->rate);
+  }
   for (Eigen::Index j = 0; j < actual.size(); ++j) {
     const robot::ArmJoint& joint = skill.robot->arm.joints[static_cast<size_t>(j)];
     const auto index = static_cast<size_t>(skill.robot->arm_joints[static_cast<size_t>(j)]);

@@ -29,6 +29,8 @@ struct ArmCommand {
   robot::JointVector rest;  // (J) the null-space target of redundant joints; empty: home
   robot::JointVector rate;  // (J) per s: velocity of `sent`
   double pace = 1.0;        // factor of the speed and acceleration limits
+  // True: joints accelerate in proportion, so that the tool stays on its line from the start.
+  bool together = false;
   double leader = 0.0;      // position of the gripper's first joint
   double leader_rate = 0.0;
 };
