@@ -22,6 +22,9 @@ constexpr double kPayloadSpacing = 0.016;  // m: twice the thickness of thin boa
 constexpr double kCarryClearance = 0.02;
 // The number of arrivals for which RRT-Connect is tried if no simple path exists: it is slow.
 constexpr size_t kMostSearches = 3;
+// The tilt (rad) of a payload that hangs from its rim up to which it does not swing in the fingers.
+constexpr double kLevel = 0.4;
+constexpr int kTiltSamples = 12;  // of each segment of a path
 
 struct Arrival {
   CarryPlan plan;
@@ -59,6 +62,56 @@ SurfacePoints PayloadPoints(const Interaction& interaction, const tasks::WorldSt
   return BodySurface(interaction.bodies[object]->body(), links, kPayloadSpacing);
 }
 
+// Returns the largest tilt (rad) of a payload, upright at `from`, on the way of `plan`.
+double LargestTilt(const PlanningArm& context, const CarryPlan& plan,
+                   const robot::JointVector& from) {
+  const robot::Arm& arm = context.robot->arm;
+  const auto up_at = [&](const robot::JointVector& at) -> Vector3d {
+    return robot::ForwardKinematics(arm, at).linear().transpose() * Vector3d::UnitZ();
+  };
+  const Vector3d up = up_at(from);  // in the tool's frame
+  JointPath path = plan.waypoints;
+  path.push_back(plan.arrival);
+  robot::JointVector before = from;
+  double least = 1.0;  // cosine
+  for (const robot::JointVector& next : path) {
+    for (int i = 1; i <= kTiltSamples; ++i) {
+      const double share = static_cast<double>(i) / kTiltSamples;
+      least = std::min(least, up.dot(up_at(before + share * (next - before))));
+    }
+    before = next;
+  }
+  return std::acos(std::clamp(least, -1.0, 1.0));
+}
+
+// Keeps the plan that tilts its payload the least beyond kLevel; of two alike the first.
+class LevelPlan {
+ public:
+  // `matters`: the payload hangs from its rim; else all plans are level.
+  LevelPlan(const PlanningArm& context, const robot::JointVector& from, bool matters)
+      : context_(context), from_(from), matters_(matters) {}
+
+  // Returns true if the plan is level.
+  bool Add(const CarryPlan& plan) {
+    const double tilt =
+        matters_ ? std::max(0.0, LargestTilt(context_, plan, from_) - kLevel) : 0.0;
+    if (!best_ || tilt < tilt_) {
+      best_ = plan;
+      tilt_ = tilt;
+    }
+    return tilt == 0.0;
+  }
+  const std::optional<CarryPlan>& best() const { return best_; }
+  bool IsBetterThan(const LevelPlan& other) const { return tilt_ < other.tilt_; }
+
+ private:
+  const PlanningArm& context_;
+  const robot::JointVector& from_;
+  bool matters_;
+  std::optional<CarryPlan> best_;
+  double tilt_ = 0.0;  // rad beyond kLevel
+};
+
 // Returns the best plan with a clearance of `margin` (m). `any` receives a plan without a path if
 // it has none yet.
 std::optional<CarryPlan> PlanWithMargin(const PlanningArm& context, const Interaction& interaction,
@@ -67,7 +120,8 @@ std::optional<CarryPlan> PlanWithMargin(const PlanningArm& context, const Intera
                                         std::optional<CarryPlan>* any) {
   CollisionChecker clearance(context, interaction, state, interaction.target->object);
   clearance.SetPayload(PayloadPoints(interaction, state));
-  std::optional<CarryPlan> by_waypoints;
+  LevelPlan straight(context, from, interaction.target->rim > 0.0);
+  LevelPlan around(context, from, interaction.target->rim > 0.0);  // through waypoints
   std::vector<CarryPlan> blocked;  // not reachable by simple waypoints
   const auto stay_clear = [&](const CarryPlan& plan) {
     if (margin > 0.0) clearance.SetClearance(margin, {from, plan.arrival});
@@ -79,17 +133,19 @@ std::optional<CarryPlan> PlanWithMargin(const PlanningArm& context, const Intera
       if (!clearance.IsCollisionFree(arrival.there)) continue;
       stay_clear(arrival.plan);
       const auto path = PlanSimplePath(context, clearance, from, arrival.plan.arrival);
-      if (path && path->empty()) return arrival.plan;
+      if (path && path->empty() && straight.Add(arrival.plan)) return arrival.plan;
       if (!path && blocked.size() < kMostSearches &&
           clearance.IsCollisionFree(arrival.plan.arrival)) {
         blocked.push_back(arrival.plan);
       }
-      if (!path || by_waypoints) continue;
-      by_waypoints = arrival.plan;
-      by_waypoints->waypoints = *path;
+      if (!path || path->empty()) continue;
+      CarryPlan plan = arrival.plan;
+      plan.waypoints = *path;
+      around.Add(plan);
     }
   }
-  if (by_waypoints) return by_waypoints;
+  if (around.best() && (!straight.best() || around.IsBetterThan(straight))) return around.best();
+  if (straight.best()) return straight.best();
   for (CarryPlan& plan : blocked) {
     stay_clear(plan);
     const auto path = PlanRrtConnect(context.robot->arm, clearance, from, plan.arrival);

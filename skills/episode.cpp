@@ -110,7 +110,7 @@ void Episode::Replan() {
 void Episode::Act(const ToolTarget& target) {
   for (int step = 0; step < skill_.options.control_steps; ++step) {
     if (step >= start_.delay) target_ = target;
-    command_.together = frame_->retreating();  // out of a cup and past its rim
+    command_.together = frame_->retreating() || frame_->at_destination();
     StepCommand(skill_, target_, arm_, &command_);
     world_->robot().Command(command_.sent, command_.leader);
     world_->Advance();
