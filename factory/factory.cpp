@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/free_memory.h"
 #include "core/json.h"
 #include "core/log.h"
 #include "core/parallel.h"
@@ -210,6 +211,7 @@ class FactoryWorker {
         const std::string text = make(i);
         core::WriteFile(record, text);
         core::Log(core::LogLevel::kInfo, "factory", "recorded ", record.stem().string());
+        core::ReturnFreeMemory();
         Count(record, false);
         WritePage(WorkerStage::kRunning, false);
       });

@@ -20,6 +20,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/finding_text.h"
+#include "core/free_memory.h"
 #include "core/parallel.h"
 #include "importers/articulated_import.h"
 #include "importers/catalogue_meshes.h"
@@ -373,6 +374,7 @@ std::vector<ImportOutcome> ImportAll(const std::vector<ImportItem>& items, const
     }
     outcome.seconds["total"] =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    core::ReturnFreeMemory();
     if (many && !core::CancelRequested()) progress->Advance();
   });
   progress->Finish();

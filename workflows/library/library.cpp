@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/finding_text.h"
+#include "core/free_memory.h"
 #include "core/parallel.h"
 #include "library/articulated/articulated_kinds.h"
 #include "library/rigid/rigid_kinds.h"
@@ -161,6 +162,7 @@ std::vector<LibraryOutcome> MakeLibrary(const LibraryOptions& options, const fs:
     }
     outcome.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    core::ReturnFreeMemory();
     if (!core::CancelRequested()) progress->Advance();
   });
   progress->Finish();

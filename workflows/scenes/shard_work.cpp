@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/free_memory.h"
 #include "core/log.h"
 #include "scene/dataset/scene_dataset.h"
 #include "scene/dataset/shard_claim.h"
@@ -91,6 +92,7 @@ bool ShardWork::Make(int shard) {
   const bool has_prompts = present.prompts.size() == static_cast<size_t>(present.SceneCount());
   if (found < scenes || !has_prompts) {
     ExtendAndWrite(dataset_.generation, scenes, path, std::move(present), &progress_);
+    core::ReturnFreeMemory();
     core::Log(core::LogLevel::kInfo, "workflows", "wrote shard ", shard, " of ", dataset_.folder);
   }
   Complete(shard, scenes);
