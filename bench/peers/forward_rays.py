@@ -42,7 +42,7 @@ def bumpy_ball(triangles):
     return vertices.reshape(-1, 3).astype(np.float32), faces.reshape(-1, 3).astype(np.uint32)
 
 
-def orbit_rays(distance=1.8, azimuth=0.4, elevation=0.7, field=0.61):
+def orbit_rays(distance=1.8, elevation=0.4, azimuth=0.7, field=0.61):
     """Returns the camera's position (3) and the directions (SIDE^2 x 3) through the pixels."""
     eye = distance * np.array([np.cos(elevation) * np.cos(azimuth),
                                np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
