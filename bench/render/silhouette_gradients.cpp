@@ -105,7 +105,7 @@ class Bench {
     std::printf("], ");
   }
 
-  // Prints the median ms of a step, and the projected gradients of each step.
+  // Prints the lower quartile of the steps' ms, and the projected gradients of each step.
   void PrintSteps(int edges) const {
     render::DifferentiableOptions options;
     options.samples_per_side = arguments_.side;
@@ -128,10 +128,10 @@ class Bench {
       milliseconds.push_back(took.count());
       rows += (step == 0 ? "[" : ", [") + Projected(gradients.objects[0].vertices) + "]";
     }
-    std::nth_element(milliseconds.begin(), milliseconds.begin() + arguments_.repeats / 2,
+    std::nth_element(milliseconds.begin(), milliseconds.begin() + arguments_.repeats / 4,
                      milliseconds.end());
     std::printf("{\"edges\": %d, \"ms\": %.4f, \"gradients\": [%s]}", edges,
-                milliseconds[static_cast<size_t>(arguments_.repeats / 2)], rows.c_str());
+                milliseconds[static_cast<size_t>(arguments_.repeats / 4)], rows.c_str());
   }
 
  private:

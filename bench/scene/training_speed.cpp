@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Arguments {
-  std::string size = "tiny";
+  std::string size = "tiny", denoiser;                      // empty: all
   int entries = 34, classes = 8, batch = 32, updates = 40;  // of dimsum
   bool whole = false;
 };
@@ -66,6 +66,7 @@ double FlopOf(const scene::SceneModelOptions& model, const scene::Denoiser& deno
 
 void Measure(const char* name, const scene::SceneModelOptions& model, const Arguments& arguments,
              double peak) {
+  if (!arguments.denoiser.empty() && arguments.denoiser != name) return;
   torch::manual_seed(1);
   const auto denoiser = scene::MakeDenoiser(model, arguments.classes);
   const scene::SceneDiffusion diffusion(model, arguments.classes);
@@ -103,6 +104,8 @@ int main(int argc, char** argv) {
   CLI::App app("Training speed of scene models");
   Arguments arguments;
   app.add_option("--size", arguments.size, "tiny, base or full")->capture_default_str();
+  app.add_option("--denoiser", arguments.denoiser, "The only one measured; all by default")
+      ->check(CLI::IsMember({"ours", "midiffusion", "diffuscene"}));
   app.add_option("--entries", arguments.entries, "Entries per scene")->capture_default_str();
   app.add_option("--classes", arguments.classes, "Classes, including the empty one")
       ->capture_default_str();
