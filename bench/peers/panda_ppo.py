@@ -155,17 +155,30 @@ def make_learner(assets, count):
                               "activation_fn": torch.nn.ELU})
 
 
+def processor_seconds(learner):
+    """Returns the processor time of this process and of the environments' processes."""
+    tick = os.sysconf("SC_CLK_TCK")
+    seconds = time.process_time()
+    for worker in learner.env.venv.processes:
+        words = Path(f"/proc/{worker.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        seconds += (int(words[11]) + int(words[12])) / tick
+    return seconds
+
+
 def their_rate(learner, updates):
-    """Returns the control steps per second of whole updates."""
-    clock = Clock()
+    """Returns the control steps per second and per second of a core, of whole updates."""
+    clock, processor = Clock(), processor_seconds(learner)
     learner.learn(updates * SAMPLES, callback=clock)
-    return CONTROL_STEPS * SAMPLES * updates / (clock.begins[-1] - clock.begins[0])
+    steps = CONTROL_STEPS * SAMPLES * updates
+    return (steps / (clock.begins[-1] - clock.begins[0]),
+            steps / (processor_seconds(learner) - processor))
 
 
 def our_rate(program, updates):
     printed = subprocess.run([program, "--part", "learning", "--repeats", str(updates)],
                              check=True, stdout=subprocess.PIPE, text=True).stdout
-    return float(re.search(r"(\d+) control steps/s", printed)[1])
+    return (float(re.search(r"(\d+) control steps/s", printed)[1]),
+            1e6 / float(re.search(r"(\d+) us of a core", printed)[1]))
 
 
 def make_assets(program, folder):
@@ -190,13 +203,14 @@ def main():
             mine.append(our_rate(options.bin / "bench_environment_speed", 2 * updates))
             theirs.append(their_rate(learner, updates))
         learner.env.close()
-    version = importlib.metadata.version("pybullet")
+    ratio, of_processor = [statistics.median(own[kind] / other[kind] for own, other in
+                                             zip(mine, theirs)) for kind in (0, 1)]
     report(options, [Comparison(
-        "ppo", f"Stable-Baselines3 {sb3_version} and PyBullet {version}",
-        "control steps/s of the Panda with learning", statistics.median(mine),
-        statistics.median(theirs),
-        statistics.median(own / other for own, other in zip(mine, theirs)),
-        "the same bodies, rates, networks and batches; 2 threads")])
+        "ppo", f"Stable-Baselines3 {sb3_version}, PyBullet {importlib.metadata.version('pybullet')}",
+        "control steps/s of the Panda with learning, 2 threads",
+        statistics.median(rate for rate, _ in mine), statistics.median(rate for rate, _ in theirs),
+        ratio, f"of processor time {of_processor:.1f}; the same bodies, rates, networks and "
+        "batches")])
 
 
 if __name__ == "__main__":
