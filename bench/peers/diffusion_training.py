@@ -17,6 +17,7 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import torch
 from torch import nn
 from torch.nn import functional
@@ -226,22 +227,23 @@ class Training:
         return loss.item()
 
     def rate(self, updates, threads):
-        """Returns updates per second."""
+        """Returns updates per second, and per second of a core."""
         torch.set_num_threads(threads)
         for _ in range(3):
             self.update()
-        start = time.perf_counter()
+        start, processor = time.perf_counter(), time.process_time()
         for _ in range(updates):
             self.update()
-        return updates / (time.perf_counter() - start)
+        return (updates / (time.perf_counter() - start),
+                updates / (time.process_time() - processor))
 
 
 def ours(program, updates):
-    """Returns the number of weights and the updates per second."""
+    """Returns the number of weights and the updates per second, also of a core."""
     printed = subprocess.run([program, "--denoiser", "ours", "--updates", str(updates)],
                              check=True, stdout=subprocess.PIPE, text=True).stdout
-    found = re.search(r"^ours +(\d+) +([\d.]+)", printed, re.MULTILINE)
-    return int(found[1]), float(found[2])
+    found = re.search(r"^ours +(\d+) +([\d.]+).* ([\d.]+)$", printed, re.MULTILINE)
+    return int(found[1]), (float(found[2]), 1e3 / float(found[3]))
 
 
 def main():
@@ -254,18 +256,19 @@ def main():
     program = options.bin / "bench_training_speed"
     mine, theirs = [], []
     for _ in range(rounds):
-        weights, rate = ours(program, updates)
-        mine.append(rate)
-        theirs.append(max(peer.rate(updates, count) for count in (1, threads)))
+        weights, rates = ours(program, updates)
+        mine.append(rates)
+        theirs.append(np.max([peer.rate(updates, count) for count in (1, threads)], axis=0))
     if weights != peer.count():
         sys.exit(f"error: the models differ: {weights} weights, PyTorch's {peer.count()}")
-    ratio = statistics.median(own / other for own, other in zip(mine, theirs))
+    ratio, of_processor = [statistics.median(own[kind] / other[kind] for own, other in
+                                             zip(mine, theirs)) for kind in (0, 1)]
     name = f"PyTorch {torch.__version__.split('+')[0]}" + ", compiled" * options.compile
     report(options, [Comparison(
         "training", name, f"updates/s of the scene model, {BATCH} scenes of {ENTRIES}",
-        statistics.median(mine), statistics.median(theirs), ratio,
-        f"the same {weights} weights, loss and AdamW; {threads} threads, theirs the better of 1 and "
-        f"{threads}")])
+        statistics.median(rate for rate, _ in mine), statistics.median(rate for rate, _ in theirs),
+        ratio, f"of processor time {of_processor:.1f}; the same {weights} weights, loss and AdamW; "
+        f"{threads} threads, theirs the better of 1 and {threads}")])
 
 
 if __name__ == "__main__":

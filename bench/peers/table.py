@@ -12,6 +12,7 @@ exit code is 1 where a row fails, or has a ratio below 1 and no reason.
 
 import argparse
 import dataclasses
+import glob
 import json
 import subprocess
 import sys
@@ -41,6 +42,8 @@ class Row:
             if not has_module(environment, module):
                 option = "--python" if environment == "python" else "--peers"
                 return f"not installed: ./setup.sh {option}"
+            if module == "mitsuba" and not glob.glob("/usr/lib/*/libLLVM*.so*"):
+                return "not installed: sudo apt-get install libllvm19 (for Mitsuba)"
         for program in self.programs:
             if not (folder / program).exists():
                 return f"not built: {program} (cmake --preset release -DSIMWRIGHT_BENCH=ON)"
