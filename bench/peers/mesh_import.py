@@ -14,6 +14,7 @@ and the largest distance between the surfaces of both.
 """
 
 import importlib.metadata
+import resource
 import statistics
 import subprocess
 import tempfile
@@ -94,9 +95,16 @@ def vhacd_parts(mesh):
             for part in trimesh.decomposition.convex_decomposition(mesh)]
 
 
+def clocks():
+    """Returns the time, and the processor time of this process and of those that it ended."""
+    return np.array([time.perf_counter(), sum(
+        usage.ru_utime + usage.ru_stime for usage in map(
+            resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)))])
+
+
 def their_import(path, folder, make_parts):
-    """Returns the seconds, the mass and the parts of an import with trimesh."""
-    start = time.perf_counter()
+    """Returns the seconds (clock, processor), the mass and the parts of an import with trimesh."""
+    start = clocks()
     mesh = trimesh.load_mesh(path)
     mesh.merge_vertices()
     trimesh.repair.fix_normals(mesh)
@@ -108,7 +116,7 @@ def their_import(path, folder, make_parts):
     for number, part in enumerate(parts):
         part.export(folder / f"collision_{number:03}.obj")
     write_urdf(mesh, len(parts), folder / "object.urdf")
-    return time.perf_counter() - start, float(mesh.mass), parts
+    return clocks() - start, float(mesh.mass), parts
 
 
 def write_urdf(mesh, parts, path):
@@ -129,12 +137,13 @@ def write_urdf(mesh, parts, path):
 
 
 def our_import(program, path, folder, mug):
-    """Returns the seconds, the mass and the parts of `simwright import`, at the mug's place."""
-    start = time.perf_counter()
+    """Returns the seconds (clock, processor), the mass and the parts of `simwright import`, at the
+    mug's place."""
+    start = clocks()
     subprocess.run(
         [program, "import", path, "-o", folder, "--no-check", "--quiet", "--up", "z", "--unit", "m",
          "--density", str(DENSITY), "--category", "mug", "--part-tolerance", "0.002"], check=True, stdout=subprocess.DEVNULL)
-    seconds = time.perf_counter() - start
+    seconds = clocks() - start
     urdf = next(folder.rglob("*.urdf"))
     tree = xml.parse(urdf)
     mass = sum(float(one.get("value")) for one in tree.iter("mass"))
@@ -166,11 +175,13 @@ def compare(options, folder, mug, path, rounds):
                 path, folder / f"{make_parts.__name__}_{path.stem}_{turn}", make_parts))
     rows = []
     for name, found in theirs.items():
-        own, other = [statistics.median(one[0] for one in side) for side in (mine, found)]
+        own, other = [statistics.median(one[0][0] for one in side) for side in (mine, found)]
+        ratio, of_processor = [statistics.median(two[0][kind] / one[0][kind] for one, two in
+                                                 zip(mine, found)) for kind in (0, 1)]
         share = errors(found[0][2], mug)[1] / errors(mine[0][2], mug)[1]
         rows.append(Comparison(
             "import", name, f"s, {path.stem.replace('_', ' ')} of {len(mug.faces)} faces", own,
-            other, statistics.median(two[0] / one[0] for one, two in zip(mine, found)),
+            other, ratio, f"of processor time {of_processor:.1f}; "
             f"{described('ours', *mine[0][1:], mug)}; {described('theirs', *found[0][1:], mug)}",
             f"their parts are {share:.1f} times as far off" if share > 1.0 else ""))
     return rows
