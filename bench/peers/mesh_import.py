@@ -142,7 +142,8 @@ def our_import(program, path, folder, mug):
     start = clocks()
     subprocess.run(
         [program, "import", path, "-o", folder, "--no-check", "--quiet", "--up", "z", "--unit", "m",
-         "--density", str(DENSITY), "--category", "mug", "--part-tolerance", "0.002"], check=True, stdout=subprocess.DEVNULL)
+         "--density", str(DENSITY), "--category", "mug", "--part-tolerance", "0.002"], check=True,
+        stdout=subprocess.DEVNULL)
     seconds = clocks() - start
     urdf = next(folder.rglob("*.urdf"))
     tree = xml.parse(urdf)

@@ -206,7 +206,8 @@ def main():
     ratio, of_processor = [statistics.median(own[kind] / other[kind] for own, other in
                                              zip(mine, theirs)) for kind in (0, 1)]
     report(options, [Comparison(
-        "ppo", f"Stable-Baselines3 {sb3_version}, PyBullet {importlib.metadata.version('pybullet')}",
+        "ppo",
+        f"Stable-Baselines3 {sb3_version}, PyBullet {importlib.metadata.version('pybullet')}",
         "control steps/s of the Panda with learning, 2 threads",
         statistics.median(rate for rate, _ in mine), statistics.median(rate for rate, _ in theirs),
         ratio, f"of processor time {of_processor:.1f}; the same bodies, rates, networks and "
