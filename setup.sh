@@ -11,8 +11,8 @@
 # Other options create Python environments from PyPI: --python .venv-python, with what the Python
 # module is built with and its tests run (PyTorch and Stable-Baselines3, 5 GB); --peers .venv-peers
 # with Drake, MuJoCo, PyBullet and yourdfpy (700 MB), and .venv-bench (2 GB) with the libraries that
-# bench/peers compares with; --usd .venv-usd with usd-core and Newton
-# (1 GB), which judge exported USD; --lerobot .venv-lerobot (6 GB), --robomimic
+# bench/peers compares with, for which it also takes --python; --usd .venv-usd with usd-core and
+# Newton (1 GB), which judge exported USD; --lerobot .venv-lerobot (6 GB), --robomimic
 # .venv-robomimic (6 GB) and --mcap .venv-mcap (200 MB), in which the tests of label `peers` load
 # Simwright's files. Options add up. With environments alone, no Debian package is installed.
 set -euo pipefail

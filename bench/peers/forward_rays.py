@@ -1,6 +1,6 @@
 """Compares the rays per second of the forward renderer with Mitsuba 3 and Open3D.
 
-    .venv-bench/bin/python bench/peers/forward_rays.py build/bin/bench_forward_rays
+    .venv-bench/bin/python bench/peers/forward_rays.py [--full]
 
 The same bumpy ball, camera and 512 x 512 rays; depth, facing normal, mask, instance and triangle of
 each pixel. Ours go into buffers that are used again, the peers' into new arrays, as their interfaces
@@ -9,8 +9,8 @@ The program is built with -DSIMWRIGHT_BENCH=ON. Mitsuba needs Debian's libllvm19
 are newer than LLVM 15.
 """
 
-import argparse
 import glob
+import importlib.metadata
 import json
 import os
 import re
@@ -20,6 +20,8 @@ import sys
 import time
 
 import numpy as np
+
+from comparison import Comparison, parser_of, report
 
 SIDE = 512
 TRIANGLES = (1000, 10000, 100000)
@@ -42,7 +44,7 @@ def bumpy_ball(triangles):
     return vertices.reshape(-1, 3).astype(np.float32), faces.reshape(-1, 3).astype(np.uint32)
 
 
-def orbit_rays(distance=1.8, azimuth=0.4, elevation=0.7, field=0.61):
+def orbit_rays(distance=1.8, elevation=0.4, azimuth=0.7, field=0.61):
     """Returns the camera's position (3) and the directions (SIDE^2 x 3) through the pixels."""
     eye = distance * np.array([np.cos(elevation) * np.cos(azimuth),
                                np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
@@ -68,7 +70,7 @@ def seconds(work, repeats):
 
 
 class Open3dRays:
-    name = "Open3D"
+    name, package = "Open3D", "open3d"
 
     def __init__(self, triangles, threads):
         import open3d
@@ -89,7 +91,7 @@ class Open3dRays:
 
 
 class MitsubaRays:
-    name = "Mitsuba 3"
+    name, package = "Mitsuba", "mitsuba"
 
     def __init__(self, triangles, threads):
         import drjit
@@ -166,34 +168,46 @@ def run_peer(name, triangles, threads, repeats):
     print(*seconds(rays.trace, repeats), rays.covered())
 
 
+def compare(options, triangles, threads):
+    """Measures a size in rounds, prints its line, and returns a row for each peer."""
+    rounds = [[our_seconds(options.bin / "bench_forward_rays", triangles, threads)] +
+              [measure_peer(peer, triangles, threads, options.repeats) for peer in PEERS]
+              for _ in range(options.rounds)]
+    covered = [side[2] for side in rounds[0]]
+    if max(covered) - min(covered) > 0.02:
+        sys.exit(f"error: the pictures differ: {covered} of the pixels are covered")
+    wall, processor = [[statistics.median(one[side][kind] for one in rounds) for side in range(3)]
+                       for kind in (0, 1)]
+    rates = [1e-6 * SIDE * SIDE / time for time in wall]
+    ratios = [[times[side] / times[0] for side in (1, 2)] for times in (wall, processor)]
+    print(f"| {triangles} | {threads} | " + " | ".join(f"{rate:.1f}" for rate in rates) + " | " +
+          " | ".join(", ".join(f"{ratio:.2f}" for ratio in one) for one in ratios) + " |",
+          flush=True)
+    return [Comparison(
+        "rays", f"{peer.name} {importlib.metadata.version(peer.package)}",
+        f"Mrays/s with buffers, {triangles} triangles, threads: {threads}", rates[0], rates[side],
+        ratios[0][side - 1], f"of processor time {ratios[1][side - 1]:.2f}; the same pixels "
+        f"({100.0 * covered[0]:.1f} and {100.0 * covered[side]:.1f} % covered)")
+        for side, peer in enumerate(PEERS, 1)]
+
+
 def main():
     find_llvm()
     if len(sys.argv) == 5 and sys.argv[1] in ("Open3dRays", "MitsubaRays"):
         return run_peer(sys.argv[1], *[int(number) for number in sys.argv[2:]])
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("program", help="bench_forward_rays")
-    parser.add_argument("--rounds", type=int, default=5)
+    parser = parser_of(__doc__)
+    parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--repeats", type=int, default=30, help="images of a peer per round")
     options = parser.parse_args()
     print("| triangles | threads | ours, Mrays/s | Mitsuba 3 | Open3D | ratios | ratios of "
           "processor time |")
     print("|---|---|---|---|---|---|---|")
-    for triangles in TRIANGLES:
-        for threads in (1, 2):
-            rounds = [[our_seconds(options.program, triangles, threads)] +
-                      [measure_peer(peer, triangles, threads, options.repeats)
-                       for peer in (MitsubaRays, Open3dRays)] for _ in range(options.rounds)]
-            covered = [side[2] for side in rounds[0]]
-            if max(covered) - min(covered) > 0.02:
-                sys.exit(f"error: the pictures differ: {covered} of the pixels are covered")
-            wall, processor = [
-                [statistics.median(one[side][kind] for one in rounds) for side in range(3)]
-                for kind in (0, 1)]
-            rates = " | ".join(f"{1e-6 * SIDE * SIDE / time:.1f}" for time in wall)
-            ratios = [", ".join(f"{times[side] / times[0]:.2f}" for side in (1, 2))
-                      for times in (wall, processor)]
-            print(f"| {triangles} | {threads} | {rates} | {ratios[0]} | {ratios[1]} |", flush=True)
+    sizes = [(triangles, threads) for triangles in TRIANGLES for threads in (1, 2)]
+    report(options, [row for size in (sizes if options.full else [(10000, 2)])
+                     for row in compare(options, *size)])
 
+
+PEERS = (MitsubaRays, Open3dRays)
 
 if __name__ == "__main__":
     main()

@@ -6,6 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "bench/render/bumpy_ball.h"
 #include "core/camera.h"
 #include "core/mesh.h"
 #include "core/parallel.h"
@@ -14,32 +15,11 @@
 namespace simwright {
 namespace {
 
-// Returns a latitude-longitude ball with bumps: `rings` x 2 rings quads, two triangles each.
-core::TexturedMesh BumpyBall(int rings) {
-  core::TexturedMesh ball;
-  const int sectors = 2 * rings;
-  for (int i = 0; i <= rings; ++i) {
-    for (int j = 0; j < sectors; ++j) {
-      const double polar = M_PI * (i + 0.5) / (rings + 1.0), turn = 2.0 * M_PI * j / sectors;
-      const double r = 0.5 + 0.03 * std::sin(9.0 * polar) * std::cos(7.0 * turn);
-      ball.mesh.vertices.emplace_back(r * std::sin(polar) * std::cos(turn),
-                                      r * std::sin(polar) * std::sin(turn), r * std::cos(polar));
-    }
-  }
-  for (int i = 0; i < rings; ++i) {
-    for (int j = 0; j < sectors; ++j) {
-      const int a = i * sectors + j, b = i * sectors + (j + 1) % sectors;
-      ball.mesh.triangles.emplace_back(a, a + sectors, b + sectors);
-      ball.mesh.triangles.emplace_back(a, b + sectors, b);
-    }
-  }
-  return ball;
-}
-
 // Arguments: triangles (about), threads.
 void ForwardBuffers512(benchmark::State& state) {
   const int rings = static_cast<int>(std::lround(std::sqrt(state.range(0) / 4.0)));
-  const core::TexturedMesh ball = BumpyBall(rings);
+  core::TexturedMesh ball;
+  ball.mesh = BumpyBall(rings);
   render::Scene scene;
   scene.Add(&ball);
   scene.Commit();

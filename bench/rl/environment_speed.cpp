@@ -161,10 +161,11 @@ void MeasurePpo(const skills::SkillSubtask& scene, int repeats) {
   }
   const int control = environment.skill().options.control_steps * options.horizon * kEnvironments;
   std::printf(
-      "\nwith PPO (256-128-64, %d epochs), 2 threads: %.0f control steps/s, of which the "
-      "learner takes %.0f %%; %.0f us of a core per step\n",
-      options.epochs, control / (collect + update), 100.0 * update / (collect + update),
-      1e6 * processor / control);
+      "\nwith PPO (256-128-64, %d epochs, %d observations), 2 threads: %.0f control steps/s, of "
+      "which "
+      "the learner takes %.0f %%; %.0f us of a core per step\n",
+      options.epochs, environment.observation_size(), control / (collect + update),
+      100.0 * update / (collect + update), 1e6 * processor / control);
 }
 
 // The scene's bodies as in training.

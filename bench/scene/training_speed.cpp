@@ -1,9 +1,10 @@
 // Measures the training speed of scene models and its share of the machine's peak: updates and
 // scenes per second of each denoiser, the floating-point operations of their matrix products per
-// second, and those of one large product by libtorch's BLAS.
+// second, those of one large product by libtorch's BLAS, and the processor time of an update.
 //   bench_training_speed --entries 34 --batch 128
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 
 #include <CLI/CLI.hpp>
 
@@ -19,13 +20,20 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Arguments {
-  std::string size = "tiny";
+  std::string size = "tiny", denoiser;                      // empty: all
   int entries = 34, classes = 8, batch = 32, updates = 40;  // of dimsum
   bool whole = false;
 };
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Returns the processor time of all threads.
+double ProcessorSeconds() {
+  timespec time;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 // Returns the FLOP/s of a product of two square matrices.
@@ -66,6 +74,7 @@ double FlopOf(const scene::SceneModelOptions& model, const scene::Denoiser& deno
 
 void Measure(const char* name, const scene::SceneModelOptions& model, const Arguments& arguments,
              double peak) {
+  if (!arguments.denoiser.empty() && arguments.denoiser != name) return;
   torch::manual_seed(1);
   const auto denoiser = scene::MakeDenoiser(model, arguments.classes);
   const scene::SceneDiffusion diffusion(model, arguments.classes);
@@ -78,21 +87,25 @@ void Measure(const char* name, const scene::SceneModelOptions& model, const Argu
       torch::randint(0, arguments.classes, {arguments.batch, arguments.entries}, torch::kLong)};
   const at::Generator generator = at::detail::createCPUGenerator(1);
   const int shares = arguments.whole ? 1 : nn::ShareCount(torch::kCPU, arguments.batch);
-  double seconds = 0.0;
+  double seconds = 0.0, processor = 0.0;
   for (int i = -2; i < arguments.updates; ++i) {  // two to warm up
     const auto start = Clock::now();
+    const double processor_start = ProcessorSeconds();
     const scene::DenoisingBatch batch = diffusion.AddNoise(scenes, generator);
     trainer.Step(i + 2, shares, [&](int at) {
       const nn::Share share = nn::ShareOf(arguments.batch, shares, at);
       return static_cast<double>(share.count) / arguments.batch *
              diffusion.Loss(denoiser.get(), batch.Part(share.first, share.count)).total;
     });
-    if (i >= 0) seconds += SecondsSince(start);
+    if (i < 0) continue;
+    seconds += SecondsSince(start);
+    processor += ProcessorSeconds() - processor_start;
   }
   const double flop = FlopOf(model, *denoiser, arguments) * arguments.updates / seconds;
-  std::printf("%-12s %9lld %10.2f %10.0f %9.1f %7.0f %%\n", name,
+  std::printf("%-12s %9lld %10.2f %10.0f %9.1f %7.0f %% %9.1f\n", name,
               static_cast<long long>(scene::ParameterCount(*denoiser)), arguments.updates / seconds,
-              arguments.batch * arguments.updates / seconds, flop * 1e-9, 100.0 * flop / peak);
+              arguments.batch * arguments.updates / seconds, flop * 1e-9, 100.0 * flop / peak,
+              1e3 * processor / arguments.updates);
 }
 
 }  // namespace
@@ -103,6 +116,8 @@ int main(int argc, char** argv) {
   CLI::App app("Training speed of scene models");
   Arguments arguments;
   app.add_option("--size", arguments.size, "tiny, base or full")->capture_default_str();
+  app.add_option("--denoiser", arguments.denoiser, "The only one measured; all by default")
+      ->check(CLI::IsMember({"ours", "midiffusion", "diffuscene"}));
   app.add_option("--entries", arguments.entries, "Entries per scene")->capture_default_str();
   app.add_option("--classes", arguments.classes, "Classes, including the empty one")
       ->capture_default_str();
@@ -116,8 +131,8 @@ int main(int argc, char** argv) {
     nn::PrepareForWork();
     const double peak = Peak();
     std::printf("%d threads, largest product %.1f GFLOP/s\n", core::ThreadCount(), peak * 1e-9);
-    std::printf("%-12s %9s %10s %10s %9s %9s\n", "denoiser", "weights", "updates/s", "scenes/s",
-                "GFLOP/s", "of peak");
+    std::printf("%-12s %9s %10s %10s %9s %9s %9s\n", "denoiser", "weights", "updates/s", "scenes/s",
+                "GFLOP/s", "of peak", "core ms");
     const scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(arguments.size);
     Measure("ours", model, arguments, peak);
     Measure("midiffusion", model.AsMiDiffusion(), arguments, peak);
