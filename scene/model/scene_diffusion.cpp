@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "nn/noise.h"
 #include "scene/dataset/vocabulary.h"
 #include "scene/model/pose_schedule.h"
 
@@ -14,9 +15,8 @@ constexpr double kCrossEntropyShare = 5e-4;
 constexpr double kNoLogit = -1e9;            // of a class without probability
 constexpr double kLeastProbability = 1e-30;  // in a logarithm
 
-// Samples on the CPU, so that a seed gives the same numbers on every device.
 torch::Tensor NormalLike(const torch::Tensor& like, const at::Generator& generator) {
-  return torch::randn(like.sizes(), generator, torch::kFloat).to(like.device());
+  return nn::NormalNumbers(like.sizes(), generator).to(like.device());
 }
 
 torch::Tensor MeanSquare(const torch::Tensor& x) {
@@ -65,7 +65,7 @@ SceneDiffusion::SceneDiffusion(const SceneModelOptions& options, int classes)
 DenoisingBatch SceneDiffusion::AddNoise(const CleanScenes& scenes,
                                         const at::Generator& generator) const {
   const torch::Device device = scenes.poses.device();
-  const torch::Tensor u = torch::rand({scenes.poses.size(0)}, generator, torch::kFloat);
+  const torch::Tensor u = nn::UniformNumbers({scenes.poses.size(0)}, generator);
   const torch::Tensor t = (poses_.steps() * u.pow(time_power_)).to(torch::kLong);
   DenoisingBatch batch;
   batch.clean = scenes;
@@ -153,10 +153,9 @@ std::vector<int> SceneDiffusion::Times(int count) const {
 
 NoisyScenes SceneDiffusion::Noise(int count, int entries, const at::Generator& generator) const {
   NoisyScenes scenes;
-  scenes.poses = torch::randn({count, entries, kPoseWidth}, generator, torch::kFloat);
-  scenes.classes =
-      continuous_ ? torch::randn({count, entries, classes_.classes()}, generator, torch::kFloat)
-                  : torch::full({count, entries}, classes_.mask(), torch::kLong);
+  scenes.poses = nn::NormalNumbers({count, entries, kPoseWidth}, generator);
+  scenes.classes = continuous_ ? nn::NormalNumbers({count, entries, classes_.classes()}, generator)
+                               : torch::full({count, entries}, classes_.mask(), torch::kLong);
   return scenes;
 }
 

@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "nn/compute.h"
 #include "nn/mixed_precision.h"
+#include "nn/noise.h"
 #include "nn/trainer.h"
 #include "scene/model/training_data.h"
 #include "scene/model/training_prompts.h"
@@ -88,7 +89,7 @@ class Training {
     losses_ = ReadLosses(output_ / kLossesFile, first);
     data_.Start(options_.seed + first, options_.buffer);
     core::Rng rng = core::StreamRng(options_.seed, static_cast<std::uint64_t>(first) + 1);
-    const at::Generator generator = at::detail::createCPUGenerator(rng());
+    const at::Generator generator = nn::SeededGenerator(rng(), device_, options_.noise_on_device);
     progress->Stage("training", options_.trainer.steps - first);
     for (int step = first; step < options_.trainer.steps; ++step) {
       Step(step, Batches(step, &rng, generator));
@@ -195,7 +196,7 @@ class Training {
     const torch::NoGradGuard no_gradient;
     trainer_->CopyAverageTo(average_.get());
     core::Rng rng = core::StreamRng(options_.seed, 0);
-    const at::Generator generator = at::detail::createCPUGenerator(rng());
+    const at::Generator generator = nn::SeededGenerator(rng(), device_, /*on_device=*/false);
     const int types = static_cast<int>(data_.types().size());
     double sum = 0.0;
     for (int i = 0; i < types; ++i) {

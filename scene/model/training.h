@@ -28,6 +28,8 @@ struct SceneTrainingOptions {
   int buffer = 16384;           // scenes held in memory (SceneStream)
   int report_every = 50;        // steps per line of the losses
   bool bfloat16_on_gpu = true;  // for matrix products; as in the paper
+  // True: noise is drawn on the network's device: faster on a GPU, with other numbers than a CPU's.
+  bool noise_on_device = false;
   std::uint64_t seed = 1;
   AssetShapes shapes;  // of the dataset's categories, for a model with classes by shape
   // Options of a model that reads prompts: the share of scenes that train without one, the most
