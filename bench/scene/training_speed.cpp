@@ -10,8 +10,11 @@
 #include "core/files.h"
 #include "core/parallel.h"
 #include "nn/compute.h"
+#include "nn/noise.h"
+#include "nn/prefetcher.h"
 #include "nn/trainer.h"
 #include "scene/model/scene_diffusion.h"
+#include "scene/model/token_tensors.h"
 
 namespace simwright {
 namespace {
@@ -19,9 +22,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Arguments {
-  std::string size = "tiny";
+  std::string size = "tiny", denoiser = "all";
   int entries = 34, classes = 8, batch = 32, updates = 40;  // of dimsum
-  bool whole = false;
+  bool whole = false, prefetch = false;
 };
 
 double SecondsSince(Clock::time_point start) {
@@ -64,6 +67,36 @@ double FlopOf(const scene::SceneModelOptions& model, const scene::Denoiser& deno
   return 3.0 * (2.0 * token_weights * tokens + 2.0 * scene_weights * arguments.batch + attention);
 }
 
+// A batch of scenes at random, as the stream of a dataset gives them.
+class RandomScenes {
+ public:
+  explicit RandomScenes(const Arguments& arguments) : range_(Filled(-1.0), Filled(1.0)) {
+    vocabulary_.entries = arguments.entries;
+    vocabulary_.categories.resize(static_cast<size_t>(arguments.classes - 1));
+    vocabulary_.welded.resize(vocabulary_.categories.size());
+    const std::int64_t tokens = static_cast<std::int64_t>(arguments.batch) * arguments.entries;
+    const torch::Tensor classes =
+        torch::one_hot(torch::randint(0, arguments.classes, {tokens}, torch::kLong),
+                       arguments.classes)
+            .to(torch::kFloat);
+    const torch::Tensor all =
+        torch::cat({torch::rand({tokens, scene::kPoseWidth}) * 2.0 - 1.0, classes}, 1);
+    tokens_.assign(all.data_ptr<float>(), all.data_ptr<float>() + all.numel());
+  }
+  scene::CleanScenes Tensors() const { return scene::TensorsOf(tokens_, vocabulary_, range_); }
+
+ private:
+  static std::array<double, scene::kPoseWidth> Filled(double value) {
+    std::array<double, scene::kPoseWidth> all;
+    all.fill(value);
+    return all;
+  }
+
+  scene::Vocabulary vocabulary_;
+  scene::PoseRange range_;
+  std::vector<float> tokens_;
+};
+
 void Measure(const char* name, const scene::SceneModelOptions& model, const Arguments& arguments,
              double peak) {
   torch::manual_seed(1);
@@ -73,15 +106,16 @@ void Measure(const char* name, const scene::SceneModelOptions& model, const Argu
   nn::TrainerOptions training;
   training.steps = 1000;
   nn::Trainer trainer(denoiser.get(), training, folder.path() / "state.pt");
-  const scene::CleanScenes scenes{
-      torch::rand({arguments.batch, arguments.entries, 12}) * 2.0 - 1.0,
-      torch::randint(0, arguments.classes, {arguments.batch, arguments.entries}, torch::kLong)};
-  const at::Generator generator = at::detail::createCPUGenerator(1);
+  const RandomScenes data(arguments);
+  const at::Generator generator = nn::SeededGenerator(1, torch::kCPU, false);
   const int shares = arguments.whole ? 1 : nn::ShareCount(torch::kCPU, arguments.batch);
+  nn::Prefetcher<scene::DenoisingBatch> batches(
+      arguments.prefetch, 0, arguments.updates + 2,
+      [&](int) { return diffusion.AddNoise(data.Tensors(), generator); });
   double seconds = 0.0;
   for (int i = -2; i < arguments.updates; ++i) {  // two to warm up
     const auto start = Clock::now();
-    const scene::DenoisingBatch batch = diffusion.AddNoise(scenes, generator);
+    const scene::DenoisingBatch batch = batches.Next();
     trainer.Step(i + 2, shares, [&](int at) {
       const nn::Share share = nn::ShareOf(arguments.batch, shares, at);
       return static_cast<double>(share.count) / arguments.batch *
@@ -103,12 +137,15 @@ int main(int argc, char** argv) {
   CLI::App app("Training speed of scene models");
   Arguments arguments;
   app.add_option("--size", arguments.size, "tiny, base or full")->capture_default_str();
+  app.add_option("--denoiser", arguments.denoiser, "all, ours, midiffusion or diffuscene")
+      ->capture_default_str();
   app.add_option("--entries", arguments.entries, "Entries per scene")->capture_default_str();
   app.add_option("--classes", arguments.classes, "Classes, including the empty one")
       ->capture_default_str();
   app.add_option("--batch", arguments.batch, "Scenes per update")->capture_default_str();
   app.add_flag("--whole", arguments.whole,
                "Use all threads in each product instead of one batch share per thread");
+  app.add_flag("--prefetch", arguments.prefetch, "Make the next batch on a thread of its own");
   app.add_option("--updates", arguments.updates, "Timed updates")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
@@ -119,9 +156,12 @@ int main(int argc, char** argv) {
     std::printf("%-12s %9s %10s %10s %9s %9s\n", "denoiser", "weights", "updates/s", "scenes/s",
                 "GFLOP/s", "of peak");
     const scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(arguments.size);
-    Measure("ours", model, arguments, peak);
-    Measure("midiffusion", model.AsMiDiffusion(), arguments, peak);
-    Measure("diffuscene", model.AsDiffuScene(), arguments, peak);
+    for (const auto& [name, one] :
+         {std::pair("ours", model), std::pair("midiffusion", model.AsMiDiffusion()),
+          std::pair("diffuscene", model.AsDiffuScene())}) {
+      if (arguments.denoiser != "all" && arguments.denoiser != name) continue;
+      Measure(name, one, arguments, peak);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 1;

@@ -9,6 +9,7 @@
 #include "nn/compute.h"
 #include "nn/mixed_precision.h"
 #include "nn/noise.h"
+#include "nn/prefetcher.h"
 #include "nn/trainer.h"
 #include "scene/model/training_data.h"
 #include "scene/model/training_prompts.h"
@@ -90,9 +91,14 @@ class Training {
     data_.Start(options_.seed + first, options_.buffer);
     core::Rng rng = core::StreamRng(options_.seed, static_cast<std::uint64_t>(first) + 1);
     const at::Generator generator = nn::SeededGenerator(rng(), device_, options_.noise_on_device);
+    MakeHeldOutBatches();
     progress->Stage("training", options_.trainer.steps - first);
+    // From here on only the thread of the batches touches `data_`'s streams, `rng` and `generator`.
+    nn::Prefetcher<std::vector<DenoisingBatch>> batches(
+        options_.prefetch.value_or(device_.is_cuda()), first, options_.trainer.steps,
+        [&](int step) { return Batches(step, &rng, generator); });
     for (int step = first; step < options_.trainer.steps; ++step) {
-      Step(step, Batches(step, &rng, generator));
+      Step(step, batches.Next());
       const bool last = step + 1 == options_.trainer.steps;
       if ((step + 1) % options_.report_every == 0 || last) Record(step + 1);
       if (trainer_->SaveDue(step)) Save(step + 1);
@@ -189,25 +195,33 @@ class Training {
         "the last good state is kept; resume from it with --resume and a lower rate");
   }
 
-  // Returns the loss of the averaged weights on held-out scenes, at the same times and noise in
-  // every call; the mean over the types.
-  double HeldOutLoss() {
-    if (data_.held_out() == 0) return NAN;
+  // Makes the batches of held-out scenes, one for each type, whose times and noise stay the same.
+  // None where a type has no held-out scenes.
+  void MakeHeldOutBatches() {
+    held_out_.clear();
     const torch::NoGradGuard no_gradient;
-    trainer_->CopyAverageTo(average_.get());
     core::Rng rng = core::StreamRng(options_.seed, 0);
     const at::Generator generator = nn::SeededGenerator(rng(), device_, /*on_device=*/false);
     const int types = static_cast<int>(data_.types().size());
-    double sum = 0.0;
     for (int i = 0; i < types; ++i) {
       const TrainingType& type = data_.types()[static_cast<size_t>(i)];
       const int count = std::min(type.held_out, std::max(1, kHeldOutBatch / types));
-      if (count == 0) return NAN;
+      if (count == 0) return held_out_.clear();
       const std::vector<float> tokens = type.dataset->Read(type.training, count);
-      sum +=
-          diffusion_.Loss(average_.get(), BatchOf(i, tokens, &rng, generator)).total.item<double>();
+      held_out_.push_back(BatchOf(i, tokens, &rng, generator));
     }
-    return sum / types;
+  }
+
+  // Returns the loss of the averaged weights on held-out scenes; the mean over the types.
+  double HeldOutLoss() {
+    if (held_out_.empty()) return NAN;
+    const torch::NoGradGuard no_gradient;
+    trainer_->CopyAverageTo(average_.get());
+    double sum = 0.0;
+    for (const DenoisingBatch& batch : held_out_) {
+      sum += diffusion_.Loss(average_.get(), batch).total.item<double>();
+    }
+    return sum / static_cast<double>(held_out_.size());
   }
 
   void Record(int step) {
@@ -234,6 +248,7 @@ class Training {
   std::unique_ptr<TrainingPrompts> prompts_;  // null: the model reads none
   std::shared_ptr<Denoiser> denoiser_, average_;
   std::unique_ptr<nn::Trainer> trainer_;
+  std::vector<DenoisingBatch> held_out_;
   LossMeans means_;
   std::vector<LossRecord> losses_;
   int bad_ = 0;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct SceneTrainingOptions {
   int buffer = 16384;           // scenes held in memory (SceneStream)
   int report_every = 50;        // steps per line of the losses
   bool bfloat16_on_gpu = true;  // for matrix products; as in the paper
+  // True: a thread makes the next batch while the network learns from the last one, with the same
+  // numbers. None: with a GPU only; two cores are busy with the network (docs/scenes.md).
+  std::optional<bool> prefetch = {};
   // True: noise is drawn on the network's device: faster on a GPU, with other numbers than a CPU's.
   bool noise_on_device = false;
   std::uint64_t seed = 1;

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "assets/primitive_meshes.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -206,6 +209,48 @@ TEST(SceneTraining, GoesOnWhereItStopped) {
   other.width = 32;
   EXPECT_THROW(TrainSceneModel(dataset, other, options, folder.path() / "run", &progress),
                core::Error);
+}
+
+// A thread that makes the batches changes no number, not after a resume either.
+TEST(SceneTraining, PrefetchedBatchesGiveTheSameWeights) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 150);
+  const SceneDataset dataset(folder.path());
+  core::Progress progress;
+  SceneModelOptions model = SmallSceneModel();
+  model.text = true;
+  const auto train = [&](bool ahead, const std::string& name) {
+    SceneTrainingOptions options = Short(20);
+    options.batch = 16;
+    options.text_pieces = 80;
+    options.buffer = 40;  // blocks are read from the file during the training
+    options.prefetch = ahead;
+    TrainSceneModel(dataset, model, options, folder.path() / name, &progress);
+    options.trainer.steps = 40;
+    options.trainer.resume = true;
+    return TrainSceneModel(dataset, model, options, folder.path() / name, &progress);
+  };
+  const SceneTrainingReport here = train(false, "here"), there = train(true, "there");
+  EXPECT_EQ(LossesText(here.losses), LossesText(there.losses));
+  EXPECT_EQ(core::ReadFile(here.weights), core::ReadFile(there.weights));
+  EXPECT_EQ(here.losses.back().step, 40);
+}
+
+TEST(SceneTraining, StopsBesideAThreadOfBatches) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 50);
+  core::Progress progress;
+  SceneTrainingOptions options = Short(100000);
+  options.prefetch = true;
+  std::jthread request([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    core::RequestCancel();
+  });
+  EXPECT_THROW(TrainSceneModel(SceneDataset(folder.path()), SmallSceneModel(), options,
+                               folder.path() / "run", &progress),
+               core::Cancelled);
+  core::ClearCancelRequest();
+  EXPECT_GE(SceneModel::Load(folder.path() / "run" / kWeightsFile).metadata().steps, 20);
 }
 
 TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
