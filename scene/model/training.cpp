@@ -11,6 +11,7 @@
 #include "nn/noise.h"
 #include "nn/prefetcher.h"
 #include "nn/trainer.h"
+#include "scene/model/loss_means.h"
 #include "scene/model/training_data.h"
 #include "scene/model/training_prompts.h"
 #include "scene/model/weights_file.h"
@@ -23,38 +24,6 @@ constexpr int kBadInARow = 20;     // most consecutive losses that are not finit
 constexpr int kHeldOutBatch = 64;  // scenes, in one batch
 constexpr int kTypesPerUpdate = 2;
 
-// The sums of the losses since the last line.
-class LossMeans {
- public:
-  // Adds the losses of the shares of a batch.
-  void Add(const std::vector<SceneLoss>& losses, const std::vector<double>& shares) {
-    for (size_t i = 0; i < losses.size(); ++i) {
-      if (shares[i] == 0.0) continue;
-      sums_.total += shares[i] * losses[i].total.item<double>();
-      sums_.translation += shares[i] * losses[i].translation.item<double>();
-      sums_.rotation += shares[i] * losses[i].rotation.item<double>();
-      sums_.classes += shares[i] * losses[i].divergence.item<double>();
-      sums_.cross_entropy += shares[i] * losses[i].cross_entropy.item<double>();
-    }
-    ++count_;
-  }
-  LossRecord Take(int step) {
-    LossRecord mean = sums_;
-    mean.step = step;
-    for (double* const one :
-         {&mean.total, &mean.translation, &mean.rotation, &mean.classes, &mean.cross_entropy}) {
-      *one = count_ > 0 ? *one / count_ : NAN;
-    }
-    sums_ = {};
-    count_ = 0;
-    return mean;
-  }
-
- private:
-  LossRecord sums_;
-  int count_ = 0;
-};
-
 class Training {
  public:
   Training(const std::vector<const SceneDataset*>& datasets, const SceneModelOptions& model,
@@ -64,7 +33,8 @@ class Training {
         output_(output),
         device_(nn::BestDevice()),
         metadata_{{}, model, data_.types().front().range},
-        diffusion_(model, ClassCount()) {
+        diffusion_(model, ClassCount()),
+        losses_stay_(options.losses_on_device.value_or(device_.is_cuda())) {
     data_.Describe(&metadata_);
     if (!metadata_.types.empty() && !model.text) {
       throw core::Error("a model of several scene types reads the type in its prompts", "",
@@ -98,7 +68,11 @@ class Training {
         options_.prefetch.value_or(device_.is_cuda()), first, options_.trainer.steps,
         [&](int step) { return Batches(step, &rng, generator); });
     for (int step = first; step < options_.trainer.steps; ++step) {
-      Step(step, batches.Next());
+      if (losses_stay_) {
+        StepOnDevice(step, batches.Next());
+      } else {
+        Step(step, batches.Next());
+      }
       const bool last = step + 1 == options_.trainer.steps;
       if ((step + 1) % options_.report_every == 0 || last) Record(step + 1);
       if (trainer_->SaveDue(step)) Save(step + 1);
@@ -183,12 +157,27 @@ class Training {
       }
       return sum;
     });
-    if (std::isfinite(total)) {
-      means_.Add(losses, weights);
-      bad_ = 0;
-      return;
+    if (std::isfinite(total)) means_.Add(losses, weights);
+    RequireConvergence(step);
+  }
+
+  // The same with each batch as a whole and without reading its losses back.
+  void StepOnDevice(int step, const std::vector<DenoisingBatch>& batches) {
+    torch::Tensor total, terms;
+    for (const DenoisingBatch& batch : batches) {
+      const double share = static_cast<double>(batch.clean.poses.size(0)) / options_.batch;
+      const nn::MixedPrecision half(device_, options_.bfloat16_on_gpu && device_.is_cuda());
+      const SceneLoss loss = diffusion_.Loss(denoiser_.get(), batch);
+      total = total.defined() ? total + share * loss.total : share * loss.total;
+      terms = terms.defined() ? terms + share * TermsOf(loss) : share * TermsOf(loss);
     }
-    if (++bad_ < kBadInARow) return;
+    trainer_->Step(step, total);
+    means_.AddOnDevice(terms);
+    if ((step + 1) % kBadInARow == 0) RequireConvergence(step);
+  }
+
+  void RequireConvergence(int step) const {
+    if (trainer_->SkippedInARow() < kBadInARow) return;
     throw core::Error(
         "the training has diverged: the loss is not a number at step " + std::to_string(step),
         output_.string(),
@@ -251,7 +240,7 @@ class Training {
   std::vector<DenoisingBatch> held_out_;
   LossMeans means_;
   std::vector<LossRecord> losses_;
-  int bad_ = 0;
+  bool losses_stay_;  // on the device until a line of the log
 };
 
 }  // namespace

@@ -32,6 +32,9 @@ struct SceneTrainingOptions {
   // True: a thread makes the next batch while the network learns from the last one, with the same
   // numbers. None: with a GPU only; two cores are busy with the network (docs/scenes.md).
   std::optional<bool> prefetch = {};
+  // True: an update takes each batch as a whole, and its losses stay on the device until they are
+  // reported, so that nothing waits for it. None: with a GPU only.
+  std::optional<bool> losses_on_device = {};
   // True: noise is drawn on the network's device: faster on a GPU, with other numbers than a CPU's.
   bool noise_on_device = false;
   std::uint64_t seed = 1;

@@ -41,9 +41,12 @@ def compile_all(entries, folder):
     header = folder / "libtorch2.h"
     header.write_text(f'#include "{TORCH_HEADER}"\n')
 
+    defined = [word for word in command_against(entries[0], header) if word.startswith("-D")]
+
     def words(entry):
         kept = [word for word in command_against(entry, header) if word != "-fsyntax-only"]
-        return kept + ["-O1"]
+        # The precompiled header wants its own definitions in all commands.
+        return kept + [word for word in defined if word not in kept] + ["-O1"]
 
     precompile = words(entries[0])
     at = precompile.index("-include")

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "assets/primitive_meshes.h"
@@ -236,6 +237,31 @@ TEST(SceneTraining, PrefetchedBatchesGiveTheSameWeights) {
   EXPECT_EQ(here.losses.back().step, 40);
 }
 
+// Losses that are read only when they are reported are the same, and so are the weights.
+TEST(SceneTraining, LossesThatStayOnTheDeviceAreTheSame) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 100);
+  const SceneDataset dataset(folder.path());
+  core::Progress progress;
+  const auto train = [&](bool stay, const std::string& name) {
+    SceneTrainingOptions options = Short(40);
+    options.losses_on_device = stay;
+    return TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / name, &progress);
+  };
+  const SceneTrainingReport read = train(false, "read"), stay = train(true, "stay");
+  ASSERT_EQ(read.losses.size(), 4u);
+  ASSERT_EQ(stay.losses.size(), 4u);
+  for (size_t i = 0; i < read.losses.size(); ++i) {
+    const LossRecord &a = read.losses[i], &b = stay.losses[i];
+    EXPECT_EQ(a.step, b.step);
+    for (const auto member :
+         {&LossRecord::total, &LossRecord::translation, &LossRecord::rotation, &LossRecord::classes,
+          &LossRecord::cross_entropy, &LossRecord::held_out}) {
+      EXPECT_NEAR(a.*member, b.*member, 1e-5 * std::abs(a.*member));
+    }
+  }
+}
+
 TEST(SceneTraining, StopsBesideAThreadOfBatches) {
   const core::TemporaryFolder folder;
   WriteScenes(folder.path(), 50);
@@ -253,7 +279,7 @@ TEST(SceneTraining, StopsBesideAThreadOfBatches) {
   EXPECT_GE(SceneModel::Load(folder.path() / "run" / kWeightsFile).metadata().steps, 20);
 }
 
-TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
+void ExpectDivergence(bool losses_on_device) {
   const core::TemporaryFolder folder;
   WriteScenes(folder.path(), 50);
   const SceneDataset dataset(folder.path());
@@ -267,6 +293,7 @@ TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
   options.trainer.resume = true;
   options.trainer.learning_rate = 1e18;
   options.trainer.largest_norm = 1e30;
+  options.losses_on_device = losses_on_device;
   try {
     TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / "run", &progress);
     FAIL() << "a rate of 1e18 did not diverge";
@@ -275,6 +302,11 @@ TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
   }
   EXPECT_EQ(core::ReadFile(good.weights), weights);
   EXPECT_EQ(SceneModel::Load(good.weights).metadata().steps, 40);
+}
+
+TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
+  ExpectDivergence(false);
+  ExpectDivergence(true);
 }
 
 TEST(SceneModel, RefusesWhatIsNone) {
