@@ -42,6 +42,25 @@ DenoisingBatch DenoisingBatch::Part(std::int64_t first, std::int64_t count) cons
           text.Part(first, count)};
 }
 
+void DenoisingBatch::CopyFrom(const DenoisingBatch& from) {
+  const auto copy = [](const torch::Tensor& one, torch::Tensor* to) {
+    if (!one.defined()) return;
+    if (to->defined()) {
+      to->copy_(one);
+    } else {
+      *to = one.clone();
+    }
+  };
+  copy(from.clean.poses, &clean.poses);
+  copy(from.clean.classes, &clean.classes);
+  copy(from.noisy.poses, &noisy.poses);
+  copy(from.noisy.classes, &noisy.classes);
+  copy(from.noisy.time, &noisy.time);
+  copy(from.pose_noise, &pose_noise);
+  copy(from.class_noise, &class_noise);
+  copy(from.class_weight, &class_weight);
+}
+
 DenoisingBatch DenoisingBatch::SortedByPromptLength() const {
   const torch::Tensor order = text.mask.sum(1).argsort();
   const auto sorted = [&](const torch::Tensor& all) {

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/random.h"
+#include "nn/captured_work.h"
 #include "nn/compute.h"
 #include "nn/mixed_precision.h"
 #include "nn/noise.h"
@@ -52,6 +53,7 @@ class Training {
       average_->SetShapes(options.shapes);
     }
     trainer_ = std::make_unique<nn::Trainer>(denoiser_.get(), options.trainer, output / kStateFile);
+    if (options.cuda_graph) CaptureUpdates();
   }
 
   SceneTrainingReport Run(core::Progress* progress) {
@@ -68,7 +70,9 @@ class Training {
         options_.prefetch.value_or(device_.is_cuda()), first, options_.trainer.steps,
         [&](int step) { return Batches(step, &rng, generator); });
     for (int step = first; step < options_.trainer.steps; ++step) {
-      if (losses_stay_) {
+      if (captured_) {
+        StepCaptured(step, batches.Next());
+      } else if (losses_stay_) {
         StepOnDevice(step, batches.Next());
       } else {
         Step(step, batches.Next());
@@ -78,6 +82,8 @@ class Training {
       if (trainer_->SaveDue(step)) Save(step + 1);
       progress->Advance();
     }
+    // Errors of kernels that are still running are reported here, not while the program ends.
+    if (device_.is_cuda()) torch::cuda::synchronize();
     progress->Finish();
     SceneTrainingReport report;
     report.weights = output_ / kWeightsFile;
@@ -161,13 +167,40 @@ class Training {
     RequireConvergence(step);
   }
 
-  // The same with each batch as a whole and without reading its losses back.
+  SceneLoss WholeLoss(const DenoisingBatch& batch) const {
+    const nn::MixedPrecision half(device_, options_.bfloat16_on_gpu && device_.is_cuda());
+    return diffusion_.Loss(denoiser_.get(), batch);
+  }
+
+  // Makes the update of the batch `captured_batch_`, whose terms it puts into `captured_terms_`.
+  void CaptureUpdates() {
+    if (prompts_ || data_.types().size() > 1) {
+      throw core::Error("a CUDA graph needs batches of one shape", "--cuda-graph",
+                        "leave it out for models that read prompts");
+    }
+    losses_stay_ = true;
+    const bool can = nn::CapturedWork::IsAvailable(device_) && trainer_->IsFused();
+    captured_ = std::make_unique<nn::CapturedWork>(can ? device_ : torch::kCPU, [this] {
+      const SceneLoss loss = WholeLoss(captured_batch_);
+      trainer_->Update(loss.total);
+      captured_terms_ = TermsOf(loss);
+    });
+  }
+
+  void StepCaptured(int step, const std::vector<DenoisingBatch>& batches) {
+    captured_batch_.CopyFrom(batches.front());
+    trainer_->SetStep(step);
+    captured_->Run();
+    means_.AddOnDevice(captured_terms_);
+    if ((step + 1) % kBadInARow == 0) RequireConvergence(step);
+  }
+
+  // The same as Step with each batch as a whole and without reading its losses back.
   void StepOnDevice(int step, const std::vector<DenoisingBatch>& batches) {
     torch::Tensor total, terms;
     for (const DenoisingBatch& batch : batches) {
       const double share = static_cast<double>(batch.clean.poses.size(0)) / options_.batch;
-      const nn::MixedPrecision half(device_, options_.bfloat16_on_gpu && device_.is_cuda());
-      const SceneLoss loss = diffusion_.Loss(denoiser_.get(), batch);
+      const SceneLoss loss = WholeLoss(batch);
       total = total.defined() ? total + share * loss.total : share * loss.total;
       terms = terms.defined() ? terms + share * TermsOf(loss) : share * TermsOf(loss);
     }
@@ -241,6 +274,9 @@ class Training {
   LossMeans means_;
   std::vector<LossRecord> losses_;
   bool losses_stay_;  // on the device until a line of the log
+  DenoisingBatch captured_batch_;
+  torch::Tensor captured_terms_;
+  std::unique_ptr<nn::CapturedWork> captured_;  // null: updates are not captured
 };
 
 }  // namespace

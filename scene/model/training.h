@@ -35,6 +35,9 @@ struct SceneTrainingOptions {
   // True: an update takes each batch as a whole, and its losses stay on the device until they are
   // reported, so that nothing waits for it. None: with a GPU only.
   std::optional<bool> losses_on_device = {};
+  // True: the kernels of an update are launched together as a CUDA graph, on a GPU where
+  // nn::CapturedWork is available; elsewhere nothing changes. For models without prompts.
+  bool cuda_graph = false;
   // True: noise is drawn on the network's device: faster on a GPU, with other numbers than a CPU's.
   bool noise_on_device = false;
   std::uint64_t seed = 1;

@@ -243,9 +243,10 @@ TEST(SceneTraining, LossesThatStayOnTheDeviceAreTheSame) {
   WriteScenes(folder.path(), 100);
   const SceneDataset dataset(folder.path());
   core::Progress progress;
-  const auto train = [&](bool stay, const std::string& name) {
+  const auto train = [&](bool stay, const std::string& name, bool capture = false) {
     SceneTrainingOptions options = Short(40);
     options.losses_on_device = stay;
+    options.cuda_graph = capture;
     return TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / name, &progress);
   };
   const SceneTrainingReport read = train(false, "read"), stay = train(true, "stay");
@@ -259,6 +260,46 @@ TEST(SceneTraining, LossesThatStayOnTheDeviceAreTheSame) {
           &LossRecord::cross_entropy, &LossRecord::held_out}) {
       EXPECT_NEAR(a.*member, b.*member, 1e-5 * std::abs(a.*member));
     }
+  }
+  // Updates that a GPU would capture see each new batch.
+  const SceneTrainingReport captured = train(true, "captured", true);
+  EXPECT_EQ(LossesText(captured.losses), LossesText(stay.losses));
+  EXPECT_EQ(core::ReadFile(captured.weights), core::ReadFile(stay.weights));
+  SceneModelOptions prompted = SmallSceneModel();
+  prompted.text = true;
+  SceneTrainingOptions options = Short(40);
+  options.cuda_graph = true;
+  EXPECT_THROW(TrainSceneModel(dataset, prompted, options, folder.path() / "text", &progress),
+               core::Error);
+}
+
+// Fused kernels, which Debian's libtorch has not, learn the same (tests/nn/run_with_libtorch2.py).
+TEST(SceneTraining, FusedUpdatesLearnTheSame) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 100);
+  const SceneDataset dataset(folder.path());
+  core::Progress progress;
+  const auto train = [&](nn::UpdateKernels kernels, const std::string& name) {
+    SceneTrainingOptions options = Short(20);
+    options.trainer.kernels = kernels;
+    TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / name, &progress);
+    options.trainer.steps = 40;
+    options.trainer.resume = true;
+    options.losses_on_device = kernels == nn::UpdateKernels::kFused;
+    return TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / name, &progress);
+  };
+  SceneTrainingReport fused;
+  try {
+    fused = train(nn::UpdateKernels::kFused, "fused");
+  } catch (const core::Error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const SceneTrainingReport separate = train(nn::UpdateKernels::kSeparate, "separate");
+  ASSERT_EQ(fused.losses.size(), 4u);
+  for (size_t i = 0; i < 4; ++i) {
+    const double total = separate.losses[i].total, held_out = separate.losses[i].held_out;
+    EXPECT_NEAR(fused.losses[i].total, total, 1e-3 * total) << i;
+    EXPECT_NEAR(fused.losses[i].held_out, held_out, 1e-3 * held_out) << i;
   }
 }
 
