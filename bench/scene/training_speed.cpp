@@ -2,14 +2,21 @@
 // scenes per second of each denoiser, the floating-point operations of their matrix products per
 // second, and those of one large product by libtorch's BLAS.
 //   bench_training_speed --entries 34 --batch 128
+// On a GPU it prints the updates per second with each measure that was made for one:
+//   for batch in 32 512; do bench_training_speed --device cuda --batch $batch --updates 200; done
 #include <chrono>
 #include <cstdio>
+#include <utility>
 
+#include <torch/version.h>
 #include <CLI/CLI.hpp>
 
+#include "core/device_choice.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "nn/captured_work.h"
 #include "nn/compute.h"
+#include "nn/mixed_precision.h"
 #include "nn/noise.h"
 #include "nn/prefetcher.h"
 #include "nn/trainer.h"
@@ -22,10 +29,15 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Arguments {
-  std::string size = "tiny", denoiser = "all";
+  std::string size = "tiny", denoiser = "all", device = "cpu";
   int entries = 34, classes = 8, batch = 32, updates = 40;  // of dimsum
-  bool whole = false, prefetch = false;
+  bool whole = false, prefetch = false, measures = false;
 };
+
+torch::Device BestCuda() {
+  core::ChooseDevice(core::DeviceChoice::kCuda);
+  return nn::BestDevice();
+}
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -97,36 +109,149 @@ class RandomScenes {
   std::vector<float> tokens_;
 };
 
-void Measure(const char* name, const scene::SceneModelOptions& model, const Arguments& arguments,
-             double peak) {
-  torch::manual_seed(1);
-  const auto denoiser = scene::MakeDenoiser(model, arguments.classes);
-  const scene::SceneDiffusion diffusion(model, arguments.classes);
-  const core::TemporaryFolder folder;
-  nn::TrainerOptions training;
-  training.steps = 1000;
-  nn::Trainer trainer(denoiser.get(), training, folder.path() / "state.pt");
-  const RandomScenes data(arguments);
-  const at::Generator generator = nn::SeededGenerator(1, torch::kCPU, false);
-  const int shares = arguments.whole ? 1 : nn::ShareCount(torch::kCPU, arguments.batch);
-  nn::Prefetcher<scene::DenoisingBatch> batches(
-      arguments.prefetch, 0, arguments.updates + 2,
-      [&](int) { return diffusion.AddNoise(data.Tensors(), generator); });
-  double seconds = 0.0;
-  for (int i = -2; i < arguments.updates; ++i) {  // two to warm up
-    const auto start = Clock::now();
-    const scene::DenoisingBatch batch = batches.Next();
-    trainer.Step(i + 2, shares, [&](int at) {
-      const nn::Share share = nn::ShareOf(arguments.batch, shares, at);
-      return static_cast<double>(share.count) / arguments.batch *
-             diffusion.Loss(denoiser.get(), batch.Part(share.first, share.count)).total;
-    });
-    if (i >= 0) seconds += SecondsSince(start);
+// The parts of an update that may be as they were, or made for a GPU.
+struct Measures {
+  bool prefetch = false;      // batches on a thread of their own
+  bool device_noise = false;  // noise drawn on the device
+  bool fused = false;         // fused kernels of the optimizer, losses not read back
+  bool graph = false;         // with `fused`: the update captured as a CUDA graph
+};
+
+// A network with all that its updates need.
+class Updates {
+ public:
+  Updates(const scene::SceneModelOptions& model, const Arguments& arguments,
+          const torch::Device& device, const Measures& measures)
+      : arguments_(arguments),
+        device_(device),
+        measures_(measures),
+        denoiser_(MakeNetwork(model, arguments, device)),
+        diffusion_(model, arguments.classes),
+        data_(arguments),
+        generator_(nn::SeededGenerator(1, device, measures.device_noise)) {
+    nn::TrainerOptions training;
+    training.steps = 1000;
+    training.kernels = measures.fused ? nn::UpdateKernels::kFused : nn::UpdateKernels::kSeparate;
+    trainer_ = std::make_unique<nn::Trainer>(denoiser_.get(), training, folder_.path() / "state");
   }
-  const double flop = FlopOf(model, *denoiser, arguments) * arguments.updates / seconds;
-  std::printf("%-12s %9lld %10.2f %10.0f %9.1f %7.0f %%\n", name,
-              static_cast<long long>(scene::ParameterCount(*denoiser)), arguments.updates / seconds,
-              arguments.batch * arguments.updates / seconds, flop * 1e-9, 100.0 * flop / peak);
+
+  // Returns the updates per second, after some to warm up.
+  double PerSecond() {
+    const int warm_up = device_.is_cuda() ? 10 : 2;
+    nn::Prefetcher<scene::DenoisingBatch> batches(
+        measures_.prefetch, 0, warm_up + arguments_.updates, [&](int) {
+          const scene::CleanScenes scenes = data_.Tensors();
+          return diffusion_.AddNoise({scenes.poses.to(device_), scenes.classes.to(device_)},
+                                     generator_);
+        });
+    nn::CapturedWork captured(device_, [&] { trainer_->Update(WholeLoss(captured_batch_)); });
+    Clock::time_point start;
+    for (int step = 0; step < warm_up + arguments_.updates; ++step) {
+      if (step == warm_up) {
+        Wait();
+        start = Clock::now();
+      }
+      Step(step, batches.Next(), &captured);
+    }
+    Wait();
+    return arguments_.updates / SecondsSince(start);
+  }
+
+  const scene::Denoiser& denoiser() const { return *denoiser_; }
+
+ private:
+  static std::shared_ptr<scene::Denoiser> MakeNetwork(const scene::SceneModelOptions& model,
+                                                      const Arguments& arguments,
+                                                      const torch::Device& device) {
+    torch::manual_seed(1);
+    std::shared_ptr<scene::Denoiser> network = scene::MakeDenoiser(model, arguments.classes);
+    network->to(device);
+    return network;
+  }
+
+  void Wait() const {
+    if (device_.is_cuda()) torch::cuda::synchronize();
+  }
+
+  torch::Tensor WholeLoss(const scene::DenoisingBatch& batch) {
+    const nn::MixedPrecision half(device_, device_.is_cuda());
+    return diffusion_.Loss(denoiser_.get(), batch).total;
+  }
+
+  void Step(int step, const scene::DenoisingBatch& batch, nn::CapturedWork* captured) {
+    if (measures_.graph) {
+      captured_batch_.CopyFrom(batch);
+      trainer_->SetStep(step);
+      return captured->Run();
+    }
+    if (measures_.fused) return trainer_->Step(step, WholeLoss(batch));
+    const int shares = arguments_.whole ? 1 : nn::ShareCount(device_, arguments_.batch);
+    trainer_->Step(step, shares, [&](int i) {
+      const nn::Share share = nn::ShareOf(arguments_.batch, shares, i);
+      return static_cast<double>(share.count) / arguments_.batch *
+             WholeLoss(batch.Part(share.first, share.count));
+    });
+  }
+
+  const Arguments& arguments_;
+  torch::Device device_;
+  Measures measures_;
+  core::TemporaryFolder folder_;
+  std::shared_ptr<scene::Denoiser> denoiser_;
+  scene::SceneDiffusion diffusion_;
+  RandomScenes data_;
+  at::Generator generator_;
+  std::unique_ptr<nn::Trainer> trainer_;
+  scene::DenoisingBatch captured_batch_;
+};
+
+// Prints the speed of each denoiser on the CPU.
+void MeasureDenoisers(const Arguments& arguments) {
+  const double peak = Peak();
+  std::printf("%d threads, largest product %.1f GFLOP/s\n", core::ThreadCount(), peak * 1e-9);
+  std::printf("%-12s %9s %10s %10s %9s %9s\n", "denoiser", "weights", "updates/s", "scenes/s",
+              "GFLOP/s", "of peak");
+  const scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(arguments.size);
+  for (const auto& [name, one] :
+       {std::pair("ours", model), std::pair("midiffusion", model.AsMiDiffusion()),
+        std::pair("diffuscene", model.AsDiffuScene())}) {
+    if (arguments.denoiser != "all" && arguments.denoiser != name) continue;
+    Updates updates(one, arguments, torch::kCPU, {.prefetch = arguments.prefetch});
+    const double speed = updates.PerSecond();
+    const double flop = FlopOf(one, updates.denoiser(), arguments) * speed;
+    std::printf("%-12s %9lld %10.2f %10.0f %9.1f %7.0f %%\n", name,
+                static_cast<long long>(scene::ParameterCount(updates.denoiser())), speed,
+                arguments.batch * speed, flop * 1e-9, 100.0 * flop / peak);
+  }
+}
+
+// Prints the updates per second of our denoiser with the measures for a GPU: none, one more in each
+// line, and all but one.
+void MeasureMeasures(const Arguments& arguments, const torch::Device& device) {
+  const bool fused = nn::HasFusedUpdate();
+  const bool graph = fused && nn::CapturedWork::IsAvailable(device);
+  const std::pair<const char*, Measures> rows[] = {
+      {"none", {}},
+      {"+ batches ahead", {.prefetch = true}},
+      {"+ noise on the device", {.prefetch = true, .device_noise = true}},
+      {"+ fused updates", {true, true, true}},
+      {"+ CUDA graph", {true, true, true, true}},
+      {"all, batches in turn", {false, true, true, true}},
+      {"all, noise of the CPU", {true, false, true, true}},
+      {"fused updates only", {.fused = true}},
+      {"CUDA graph of fused updates only", {.fused = true, .graph = true}}};
+  const scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(arguments.size);
+  std::printf("%s, %d scenes: updates/s (libtorch %s)\n", arguments.size.c_str(), arguments.batch,
+              TORCH_VERSION);
+  for (const auto& [name, measures] : rows) {
+    if ((measures.fused && !fused) || (measures.graph && !graph)) {
+      std::printf("  %-34s not in this build\n", name);
+      continue;
+    }
+    const double speed = Updates(model, arguments, device, measures).PerSecond();
+    std::printf("  %-34s %8.2f\n", name, speed);
+    std::fflush(stdout);
+  }
 }
 
 }  // namespace
@@ -145,22 +270,27 @@ int main(int argc, char** argv) {
   app.add_option("--batch", arguments.batch, "Scenes per update")->capture_default_str();
   app.add_flag("--whole", arguments.whole,
                "Use all threads in each product instead of one batch share per thread");
+  app.add_option("--device", arguments.device, "cpu, or cuda: prints the measures")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"cpu", "cuda"}));
+  app.add_flag("--measures", arguments.measures,
+               "Print the updates/s of tiny and base with each measure for a GPU, on a CPU too");
   app.add_flag("--prefetch", arguments.prefetch, "Make the next batch on a thread of its own");
   app.add_option("--updates", arguments.updates, "Timed updates")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     core::SetThreadCount(0);
     nn::PrepareForWork();
-    const double peak = Peak();
-    std::printf("%d threads, largest product %.1f GFLOP/s\n", core::ThreadCount(), peak * 1e-9);
-    std::printf("%-12s %9s %10s %10s %9s %9s\n", "denoiser", "weights", "updates/s", "scenes/s",
-                "GFLOP/s", "of peak");
-    const scene::SceneModelOptions model = scene::SceneModelOptions::OfSize(arguments.size);
-    for (const auto& [name, one] :
-         {std::pair("ours", model), std::pair("midiffusion", model.AsMiDiffusion()),
-          std::pair("diffuscene", model.AsDiffuScene())}) {
-      if (arguments.denoiser != "all" && arguments.denoiser != name) continue;
-      Measure(name, one, arguments, peak);
+    const torch::Device device = arguments.device == "cuda" ? BestCuda() : torch::kCPU;
+    if (!device.is_cuda() && !arguments.measures) {
+      MeasureDenoisers(arguments);
+      return 0;
+    }
+    const bool sized = app.count("--size") > 0;
+    for (const std::string& size : sized ? std::vector<std::string>{arguments.size}
+                                         : std::vector<std::string>{"tiny", "base"}) {
+      arguments.size = size;
+      MeasureMeasures(arguments, device);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
