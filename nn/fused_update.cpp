@@ -116,12 +116,19 @@ class FusedUpdate : public ParameterUpdate {
     return true;
   }
 
+  // Returns the gradient in the parameter's layout, which the kernel assumes and autograd's
+  // functions do not give.
+  static torch::Tensor InLayoutOf(const torch::Tensor& parameter, const torch::Tensor& gradient) {
+    if (gradient.strides().equals(parameter.strides())) return gradient;
+    return torch::empty_like(parameter).copy_(gradient);
+  }
+
   Lists ListsWithGradients() const {
     Lists lists;
     for (size_t i = 0; i < parameters_.size(); ++i) {
       if (!parameters_[i].grad().defined()) continue;
       lists.parameters.push_back(parameters_[i]);
-      lists.gradients.push_back(parameters_[i].grad());
+      lists.gradients.push_back(InLayoutOf(parameters_[i], parameters_[i].grad()));
       lists.first.push_back(first_[i]);
       lists.second.push_back(second_[i]);
       lists.steps.push_back(steps_[i]);

@@ -75,6 +75,28 @@ TEST(FusedUpdate, GoesWhereSeparateOnesGo) {
   EXPECT_GT(LargestOff(*average_one, *one), 1e-5);
 }
 
+// The gradients of a linear layer's shares are transposed views.
+TEST(FusedUpdate, TakesSharesOfABatch) {
+  if (!HasFusedUpdate()) GTEST_SKIP() << "this libtorch has no fused kernels";
+  const core::TemporaryFolder folder;
+  const auto trained = [&](UpdateKernels kernels) {
+    torch::manual_seed(7);
+    torch::nn::Linear line(5, 3);
+    Trainer trainer(line.get(), Kernels(kernels), folder.path() / "state");
+    for (int step = 0; step < 5; ++step) {
+      const torch::Tensor x = torch::randn({8, 5});
+      const double sum = trainer.Step(step, 2, [&](int i) {
+        const torch::Tensor part = x.narrow(0, 4 * i, 4);
+        return (line(part) - part.narrow(1, 1, 3)).square().mean();
+      });
+      EXPECT_GT(sum, 0.1);
+    }
+    return line->weight.detach().clone();
+  };
+  const torch::Tensor separate = trained(UpdateKernels::kSeparate);
+  EXPECT_LT((separate - trained(UpdateKernels::kFused)).abs().max().item<double>(), 1e-6);
+}
+
 TEST(FusedUpdate, LeavesLossesThatAreNotFiniteOut) {
   const core::TemporaryFolder folder;
   for (const UpdateKernels kernels : {UpdateKernels::kSeparate, UpdateKernels::kFused}) {

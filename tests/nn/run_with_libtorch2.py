@@ -23,6 +23,7 @@ LIBRARIES = pathlib.Path(torch.__file__).parent / "lib"
 # The objects that are compiled again for a program, by the beginning of their path.
 PROGRAMS = {
     "nn_test": ("nn/", "tests/nn/CMakeFiles/nn_test"),
+    "bench_training_speed": ("nn/", "scene/", "bench/scene/CMakeFiles/bench_training_speed"),
     "scene_slow_test": ("nn/", "scene/", "tests/scene/CMakeFiles/scene_slow_test"),
 }
 
