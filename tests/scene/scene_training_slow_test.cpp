@@ -309,15 +309,18 @@ TEST(SceneTraining, StopsBesideAThreadOfBatches) {
   core::Progress progress;
   SceneTrainingOptions options = Short(100000);
   options.prefetch = true;
-  std::jthread request([] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const fs::path weights = folder.path() / "run" / kWeightsFile;
+  std::jthread request([&] {  // once a state was saved
+    for (int i = 0; i < 6000 && !fs::exists(weights); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
     core::RequestCancel();
   });
   EXPECT_THROW(TrainSceneModel(SceneDataset(folder.path()), SmallSceneModel(), options,
                                folder.path() / "run", &progress),
                core::Cancelled);
   core::ClearCancelRequest();
-  EXPECT_GE(SceneModel::Load(folder.path() / "run" / kWeightsFile).metadata().steps, 20);
+  EXPECT_GE(SceneModel::Load(weights).metadata().steps, 20);
 }
 
 void ExpectDivergence(bool losses_on_device) {
