@@ -168,6 +168,11 @@ void AddSceneTrain(CLI::App* scene, CommonOptions* common, Run* run) {
       ->capture_default_str();
   command->add_option("--save-every", options.trainer.save_every, "Updates between checkpoints")
       ->capture_default_str();
+  command->add_flag("--cuda-graph", options.cuda_graph,
+                    "Launch the kernels of an update on a GPU together, which makes small batches "
+                    "faster; for models without prompts");
+  command->add_flag("--device-noise", options.noise_on_device,
+                    "Draw noise on the GPU, which is faster: other weights for the same seed");
   command->add_flag("--resume", options.trainer.resume, "Resume from the folder's checkpoint");
   AddCommon(command, common);
   AddDevice(command);

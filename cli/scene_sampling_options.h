@@ -7,9 +7,9 @@
 
 namespace simwright::cli {
 
-// Adds the flags of every command that samples a model of scenes: --text-encoder, --steps and
-// --eta. The initial value of each variable is the flag's default; the variables must outlive
-// `command`.
+// Adds the flags of every command that samples a model of scenes: --text-encoder, --steps,
+// --eta and --device-noise. The initial value of each variable is the flag's default; the variables
+// must outlive `command`.
 void AddSceneSamplingOptions(CLI::App* command, std::filesystem::path* text_encoder,
                              scene::SampleOptions* sampling);
 

@@ -18,6 +18,25 @@ macro(simwright_require_mujoco)
   endif()
 endmacro()
 
+# simwright_find_cuda_headers(FOLDER): sets `simwright_cuda_headers` to the include folders of CUDA
+# below FOLDER, which holds Nvidia's packages for Python; to nothing where one is missing. PyTorch
+# depends on nvidia-cuda-runtime; nvidia-cuda-crt has the rest.
+macro(simwright_find_cuda_headers folder)
+  set(simwright_cuda_headers)
+  foreach(header cuda_runtime_api.h crt/host_config.h)
+    file(GLOB _simwright_found ${folder}/*/include/${header})
+    if(_simwright_found)
+      list(GET _simwright_found 0 _simwright_found)
+      string(REPLACE "/${header}" "" _simwright_found ${_simwright_found})
+      list(APPEND simwright_cuda_headers ${_simwright_found})
+    else()
+      message(STATUS "No CUDA graphs: ${header} is missing (Python's package nvidia-cuda-crt)")
+      set(simwright_cuda_headers)
+      break()
+    endif()
+  endforeach()
+endmacro()
+
 # SIMWRIGHT_TORCH_ROOT: the folder of another libtorch, with include/ and lib/, such as that of a
 # Python package with CUDA. Its own CMake config is not read, since that needs the CUDA toolkit. The
 # library of CUDA registers itself when it is loaded: nothing names it, so the linker must keep it.
@@ -25,6 +44,18 @@ set(SIMWRIGHT_TORCH_ROOT "" CACHE PATH "Folder of a libtorch to use in place of 
 macro(simwright_require_torch_of root)
   if(NOT TARGET simwright_torch)
     file(GLOB simwright_torch_cuda ${root}/lib/libtorch_cuda.so)
+    file(GLOB simwright_c10_cuda ${root}/lib/libc10_cuda.so)
+    file(GLOB simwright_cudart ${root}/../nvidia/*/lib/libcudart.so.*)
+    simwright_find_cuda_headers(${root}/../nvidia)
+    if(simwright_cuda_headers AND simwright_c10_cuda AND simwright_cudart)
+      get_filename_component(simwright_cudart_folder ${simwright_cudart} DIRECTORY)
+      set(simwright_cuda_links ${simwright_c10_cuda} ${simwright_cudart})
+      set(simwright_cuda_rpath LINKER:-rpath,${simwright_cudart_folder})
+    else()
+      set(simwright_cuda_headers)
+      set(simwright_cuda_links)
+      set(simwright_cuda_rpath)
+    endif()
     set(simwright_torch_kept ${root}/lib/libtorch_cpu.so ${simwright_torch_cuda})
     list(JOIN simwright_torch_kept "," simwright_torch_kept)
     add_library(simwright_torch INTERFACE IMPORTED)
@@ -32,9 +63,9 @@ macro(simwright_require_torch_of root)
       ${root}/include ${root}/include/torch/csrc/api/include)
     target_link_options(simwright_torch INTERFACE
       "LINKER:--no-as-needed,${simwright_torch_kept},--as-needed" LINKER:--allow-shlib-undefined
-      LINKER:-rpath,${root}/lib)
+      LINKER:-rpath,${root}/lib ${simwright_cuda_rpath})
     target_link_libraries(simwright_torch INTERFACE
-      ${root}/lib/libtorch_cpu.so ${root}/lib/libc10.so)
+      ${root}/lib/libtorch_cpu.so ${root}/lib/libc10.so ${simwright_cuda_links})
   endif()
 endmacro()
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <torch/version.h>
+
 namespace simwright::nn {
 namespace {
 
@@ -65,11 +67,14 @@ torch::Tensor SpatialAttentionImpl::forward(const torch::Tensor& x) {
   // (3, B, heads, positions, size)
   const torch::Tensor qkv =
       qkv_(norm_(x)).reshape({batch, 3, heads_, size, positions}).permute({1, 0, 2, 4, 3});
+#if TORCH_VERSION_MAJOR >= 2
+  const torch::Tensor attended = at::scaled_dot_product_attention(qkv[0], qkv[1], qkv[2]);
+#else
   const torch::Tensor weights = torch::softmax(
       torch::matmul(qkv[0], qkv[1].transpose(-2, -1)) / std::sqrt(static_cast<double>(size)), -1);
-  const torch::Tensor mixed =
-      torch::matmul(weights, qkv[2]).permute({0, 1, 3, 2}).reshape(x.sizes());
-  return x + out_(mixed);
+  const torch::Tensor attended = torch::matmul(weights, qkv[2]);
+#endif
+  return x + out_(attended.permute({0, 1, 3, 2}).reshape(x.sizes()));
 }
 
 }  // namespace simwright::nn

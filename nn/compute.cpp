@@ -34,11 +34,15 @@ torch::Device BestDevice() {
   return torch::Device(has_gpu ? torch::kCUDA : torch::kCPU);
 }
 
-void PrepareForWork() {
+void SetLoopThreads(int count) {
   // at::set_num_threads would make every new thread create a pool whose threads spin: libtorch
   // repeats the call on a thread's first loop.
   at::get_num_threads();  // sets the thread's default, which the next line replaces
-  if (omp_set_num_threads != nullptr) omp_set_num_threads(core::ThreadCount());
+  if (omp_set_num_threads != nullptr) omp_set_num_threads(count);
+}
+
+void PrepareForWork() {
+  SetLoopThreads(core::ThreadCount());
   if (openblas_set_num_threads != nullptr) openblas_set_num_threads(core::ThreadCount());
   // The tensors of a step, some tens of MB, are freed at its end and needed again by the next. By
   // default glibc returns such memory to the system in between.

@@ -15,6 +15,9 @@ torch::Device BestDevice();
 // the next one. Call it before heavy work.
 void PrepareForWork();
 
+// Gives libtorch `count` threads for the loops of the calling thread.
+void SetLoopThreads(int count);
+
 // A scope guard that makes libtorch's loops, and MKL's products if libtorch has MKL, on the
 // constructing thread single-threaded: waking another thread takes longer than a loop over some ten
 // thousand numbers.

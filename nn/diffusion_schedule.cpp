@@ -9,18 +9,19 @@
 namespace simwright::nn {
 namespace {
 
-torch::Tensor Column(const torch::Tensor& table, const torch::Tensor& t, std::int64_t rank) {
+torch::Tensor Column(const DeviceTable& table, const torch::Tensor& t, std::int64_t rank) {
   std::vector<std::int64_t> shape(static_cast<size_t>(rank), 1);
   shape[0] = -1;
-  return table.to(t.device()).index_select(0, t.to(torch::kLong)).to(torch::kFloat).reshape(shape);
+  return table.On(t.device()).index_select(0, t.to(torch::kLong)).to(torch::kFloat).reshape(shape);
 }
 
 }  // namespace
 
-DiffusionSchedule::DiffusionSchedule(const torch::Tensor& betas) {
-  const torch::Tensor kept = torch::cumprod(1.0 - betas, 0);
-  signal_ = torch::sqrt(kept);
-  noise_ = torch::sqrt(1.0 - kept);
+DiffusionSchedule::DiffusionSchedule(const torch::Tensor& kept)
+    : signal_(torch::sqrt(kept)), noise_(torch::sqrt(1.0 - kept)) {}
+
+DiffusionSchedule DiffusionSchedule::OfBetas(const torch::Tensor& betas) {
+  return DiffusionSchedule(torch::cumprod(1.0 - betas, 0));
 }
 
 DiffusionSchedule DiffusionSchedule::Cosine(int steps) {
@@ -28,14 +29,14 @@ DiffusionSchedule DiffusionSchedule::Cosine(int steps) {
   const torch::Tensor time = torch::arange(steps + 1, torch::kDouble) / static_cast<double>(steps);
   const torch::Tensor kept = torch::pow(torch::cos((time + 0.008) / 1.008 * (0.5 * M_PI)), 2);
   const torch::Tensor betas = 1.0 - kept.slice(0, 1, steps + 1) / kept.slice(0, 0, steps);
-  return DiffusionSchedule(torch::clamp(betas, 1e-6, 0.999));
+  return OfBetas(torch::clamp(betas, 1e-6, 0.999));
 }
 
 DiffusionSchedule DiffusionSchedule::ScaledLinear(int steps, double first, double last) {
   if (steps < 2 || !(first > 0.0) || !(last > first) || last >= 1.0) {
     throw core::Error("a diffusion has at least two steps and betas that rise between 0 and 1");
   }
-  return DiffusionSchedule(
+  return OfBetas(
       torch::pow(torch::linspace(std::sqrt(first), std::sqrt(last), steps, torch::kDouble), 2));
 }
 
@@ -43,7 +44,7 @@ DiffusionSchedule DiffusionSchedule::Linear(int steps, double first, double last
   if (steps < 2 || !(first > 0.0) || !(last > first) || last >= 1.0) {
     throw core::Error("a diffusion has at least two steps and betas that rise between 0 and 1");
   }
-  return DiffusionSchedule(torch::linspace(first, last, steps, torch::kDouble));
+  return OfBetas(torch::linspace(first, last, steps, torch::kDouble));
 }
 
 torch::Tensor DiffusionSchedule::Signal(const torch::Tensor& t, std::int64_t rank) const {

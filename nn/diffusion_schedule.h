@@ -1,5 +1,6 @@
 #pragma once
 
+#include "nn/device_table.h"
 #include "nn/torch.h"
 
 namespace simwright::nn {
@@ -18,13 +19,13 @@ class DiffusionSchedule {
   // 0.02 over 1000 steps).
   static DiffusionSchedule Linear(int steps, double first, double last);
 
-  int steps() const { return static_cast<int>(signal_.size(0)); }
+  int steps() const { return static_cast<int>(signal_.size()); }
   // Return a_t and s_t for t (B, int64), on t's device, with `rank` dimensions: (B x 1 x 1 x 1) for
   // images.
   torch::Tensor Signal(const torch::Tensor& t, std::int64_t rank = 4) const;
   torch::Tensor Noise(const torch::Tensor& t, std::int64_t rank = 4) const;
-  double SignalAt(int t) const { return signal_[t].item<double>(); }
-  double NoiseAt(int t) const { return noise_[t].item<double>(); }
+  double SignalAt(int t) const { return signal_.At(t); }
+  double NoiseAt(int t) const { return noise_.At(t); }
 
   // Returns x_t from x_0 and noise, (B x C x H x W) each or of another rank.
   torch::Tensor AddNoise(const torch::Tensor& clean, const torch::Tensor& noise,
@@ -46,8 +47,11 @@ class DiffusionSchedule {
                                int previous, double eta, const torch::Tensor& fresh) const;
 
  private:
-  explicit DiffusionSchedule(const torch::Tensor& betas);
-  torch::Tensor signal_, noise_;  // (steps) float64
+  // `kept` (steps): the products of 1 - beta.
+  explicit DiffusionSchedule(const torch::Tensor& kept);
+  static DiffusionSchedule OfBetas(const torch::Tensor& betas);
+
+  DeviceTable signal_, noise_;  // (steps)
 };
 
 }  // namespace simwright::nn

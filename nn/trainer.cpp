@@ -2,8 +2,6 @@
 
 #include <cmath>
 #include <numeric>
-#include <sstream>
-#include <type_traits>
 
 #include "core/error.h"
 #include "nn/compute.h"
@@ -12,18 +10,10 @@
 namespace simwright::nn {
 namespace {
 
-// Returns the key of a parameter in an optimizer's states: its address, which libtorch writes as
-// text up to 2.0 and as a pointer from 2.1 on.
-template <typename States>
-typename States::key_type StateKey(const States&, const torch::Tensor& parameter) {
-  c10::TensorImpl* const address = parameter.unsafeGetTensorImpl();
-  if constexpr (std::is_same_v<typename States::key_type, std::string>) {
-    std::ostringstream text;
-    text << address;
-    return text.str();
-  } else {
-    return address;
-  }
+bool TakesFused(const torch::nn::Module& module, UpdateKernels kernels) {
+  if (kernels != UpdateKernels::kAutomatic) return kernels == UpdateKernels::kFused;
+  const std::vector<torch::Tensor> parameters = module.parameters();
+  return HasFusedUpdate() && !parameters.empty() && parameters.front().is_cuda();
 }
 
 }  // namespace
@@ -49,10 +39,8 @@ Trainer::Trainer(torch::nn::Module* module, const TrainerOptions& options,
     : module_(module), options_(options), state_(state) {
   std::string error;
   if (!options.IsValid(&error)) throw core::Error(error, "training");
-  optimizer_ = std::make_unique<torch::optim::AdamW>(
-      module->parameters(),
-      torch::optim::AdamWOptions(options.learning_rate).weight_decay(options.weight_decay));
-  average_ = std::make_unique<Ema>(*module, options.ema_decay);
+  update_ = TakesFused(*module, options.kernels) ? MakeFusedUpdate(module, options)
+                                                 : MakeSeparateUpdate(module, options);
   if (options.resume && std::filesystem::exists(state)) LoadState();
 }
 
@@ -64,14 +52,38 @@ double Trainer::LearningRate(int step) const {
 }
 
 void Trainer::Step(int step, const torch::Tensor& loss) {
-  if (!std::isfinite(loss.item<double>())) return;
-  optimizer_->zero_grad();
+  SetStep(step);
+  Update(loss);
+}
+
+void Trainer::SetStep(int step) {
+  update_->SetRate(LearningRate(step));
+}
+
+void Trainer::Update(const torch::Tensor& loss) {
+  if (!update_->ChecksLoss()) {
+    if (!std::isfinite(loss.item<double>())) {
+      ++skipped_;
+      return;
+    }
+    skipped_ = 0;
+  }
+  update_->ClearGradients();
   loss.backward();
-  TakeStep(step);
+  update_->Apply(loss);
+}
+
+int Trainer::SkippedInARow() const {
+  return skipped_ + update_->SkippedInARow();
 }
 
 double Trainer::Step(int step, int shares, const std::function<torch::Tensor(int)>& term) {
   if (shares < 1) throw core::Error("a loss needs at least one share", std::to_string(shares));
+  if (shares == 1 && update_->ChecksLoss()) {
+    const torch::Tensor loss = term(0);
+    Step(step, loss);
+    return loss.item<double>();  // after all kernels were launched
+  }
   const std::vector<torch::Tensor> parameters = module_->parameters();
   std::vector<double> losses(static_cast<size_t>(shares));
   std::vector<torch::autograd::variable_list> gradients(losses.size());
@@ -82,7 +94,8 @@ double Trainer::Step(int step, int shares, const std::function<torch::Tensor(int
     gradients[at] = torch::autograd::grad({loss}, parameters, {}, {}, false, /*allow_unused=*/true);
   });
   const double sum = std::accumulate(losses.begin(), losses.end(), 0.0);
-  if (!std::isfinite(sum)) return sum;
+  skipped_ = std::isfinite(sum) ? 0 : skipped_ + 1;
+  if (skipped_ > 0) return sum;
   const SingleThreadedLoops alone;
   for (size_t p = 0; p < parameters.size(); ++p) {
     torch::Tensor whole;
@@ -92,18 +105,9 @@ double Trainer::Step(int step, int shares, const std::function<torch::Tensor(int
     }
     parameters[p].mutable_grad() = whole;
   }
-  TakeStep(step);
+  SetStep(step);
+  update_->Apply({});
   return sum;
-}
-
-void Trainer::TakeStep(int step) {
-  const SingleThreadedLoops alone;
-  for (auto& group : optimizer_->param_groups()) {
-    static_cast<torch::optim::AdamWOptions&>(group.options()).lr(LearningRate(step));
-  }
-  torch::nn::utils::clip_grad_norm_(module_->parameters(), options_.largest_norm);
-  optimizer_->step();
-  average_->Update(*module_);
 }
 
 bool Trainer::SaveDue(int step) const {
@@ -114,37 +118,16 @@ void Trainer::SaveState(int step) const {
   NamedTensors tensors;
   tensors["step"] = torch::tensor(step);
   CollectTensors(*module_, "module.", &tensors);
-  average_->Collect(&tensors);
-  // AdamW's moments, in the order of the parameters.
-  const std::vector<torch::Tensor> parameters = module_->parameters();
-  for (size_t i = 0; i < parameters.size(); ++i) {
-    const auto found = optimizer_->state().find(StateKey(optimizer_->state(), parameters[i]));
-    if (found == optimizer_->state().end()) continue;
-    const auto& moments = static_cast<const torch::optim::AdamWParamState&>(*found->second);
-    const std::string name = "adam." + std::to_string(i);
-    tensors[name + ".step"] = torch::tensor(moments.step());
-    tensors[name + ".first"] = moments.exp_avg();
-    tensors[name + ".second"] = moments.exp_avg_sq();
-  }
+  update_->Collect(&tensors);
   WriteTensors(tensors, state_);
 }
 
 void Trainer::LoadState() {
   const NamedTensors tensors = ReadTensors(state_);
   if (!tensors.contains("step") || !RestoreTensors(tensors, "module.", module_).empty() ||
-      !average_->Load(tensors)) {
+      !update_->Load(tensors)) {
     throw core::Error("is not a training state of this network", state_.string(),
                       "remove it, or train without --resume");
-  }
-  const std::vector<torch::Tensor> parameters = module_->parameters();
-  for (size_t i = 0; i < parameters.size(); ++i) {
-    const std::string name = "adam." + std::to_string(i);
-    if (!tensors.contains(name + ".step")) continue;
-    auto moments = std::make_unique<torch::optim::AdamWParamState>();
-    moments->step(tensors.at(name + ".step").item<std::int64_t>());
-    moments->exp_avg(tensors.at(name + ".first").to(parameters[i].device()));
-    moments->exp_avg_sq(tensors.at(name + ".second").to(parameters[i].device()));
-    optimizer_->state()[StateKey(optimizer_->state(), parameters[i])] = std::move(moments);
   }
   first_ = tensors.at("step").item<int>();
 }

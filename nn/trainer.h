@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "nn/ema.h"
+#include "nn/parameter_update.h"
 #include "nn/torch.h"
 #include "nn/trainer_options.h"
 
@@ -24,8 +24,16 @@ class Trainer {
   // Returns the first step: 0, or where the earlier run stopped.
   int first_step() const { return first_; }
   double LearningRate(int step) const;
+  // Returns true if Step(step, loss) reads nothing back from a GPU.
+  bool IsFused() const { return update_->ChecksLoss(); }
   // Takes one optimiser step along the gradient of `loss`. Skips a loss that is not finite.
   void Step(int step, const torch::Tensor& loss);
+  // The two parts of Step(step, loss): SetStep sets the learning rate, Update takes the step.
+  void SetStep(int step);
+  void Update(const torch::Tensor& loss);
+  // Returns the number of losses in a row, up to the last one, that were not finite; waits for a
+  // GPU.
+  int SkippedInARow() const;
   // Takes one optimiser step for a loss that is the sum of `shares` terms, each computed on its own
   // thread (ForEachShare): term(i) returns a scalar that depends on the module's parameters.
   // Returns the sum. For the same number of shares the result is the same bit for bit. Throws
@@ -35,20 +43,18 @@ class Trainer {
   bool SaveDue(int step) const;
   void SaveState(int step) const;
   // Copies the averaged weights into `module`.
-  void CopyAverageTo(torch::nn::Module* module) const { average_->CopyTo(module); }
+  void CopyAverageTo(torch::nn::Module* module) const { update_->CopyAverageTo(module); }
   // Ends the training: deletes the state from which it would resume.
   void Finish() const;
 
  private:
   void LoadState();
-  void TakeStep(int step);  // along the parameters' gradients
 
   torch::nn::Module* module_;
   TrainerOptions options_;
   std::filesystem::path state_;
-  std::unique_ptr<torch::optim::AdamW> optimizer_;
-  std::unique_ptr<Ema> average_;
-  int first_ = 0;
+  std::unique_ptr<ParameterUpdate> update_;
+  int first_ = 0, skipped_ = 0;  // skipped_: losses that were read here
 };
 
 }  // namespace simwright::nn

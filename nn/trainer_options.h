@@ -4,6 +4,10 @@
 
 namespace simwright::nn {
 
+// The kernels that update the parameters: one after the other per parameter, or fused over all of
+// them (libtorch 2.4 and later). kAutomatic: fused on a GPU where libtorch has them.
+enum class UpdateKernels { kAutomatic, kSeparate, kFused };
+
 // The training options. This header does not depend on libtorch, so its users need not either.
 struct TrainerOptions {
   int steps = 1000;
@@ -14,6 +18,7 @@ struct TrainerOptions {
   double largest_norm = 1.0;    // gradient clipping: largest norm over all parameters
   // Steps between saved states, from which a stopped run resumes.
   int save_every = 250;
+  UpdateKernels kernels = UpdateKernels::kAutomatic;
   bool resume = false;  // resume from the state of an earlier run
 
   // Returns false, with the reason, for invalid values.

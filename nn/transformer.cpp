@@ -3,7 +3,39 @@
 #include <cmath>
 #include <limits>
 
+#include <torch/version.h>
+
+// libtorch 2.4 has an RMS norm of its own, which later versions compute in one kernel.
+#if TORCH_VERSION_MAJOR > 2 || (TORCH_VERSION_MAJOR == 2 && TORCH_VERSION_MINOR >= 4)
+#define SIMWRIGHT_TORCH_HAS_RMS_NORM
+#endif
+
 namespace simwright::nn {
+namespace {
+
+constexpr double kNormEpsilon = 1e-6;
+
+// Return softmax(q k^T / sqrt(d)) v, (B x heads x N x d).
+#if TORCH_VERSION_MAJOR >= 2
+torch::Tensor Attended(const torch::Tensor& q, const torch::Tensor& k, const torch::Tensor& v,
+                       const torch::Tensor& key_mask) {
+  if (!key_mask.defined()) return at::scaled_dot_product_attention(q, k, v);
+  return at::scaled_dot_product_attention(q, k, v, key_mask.unsqueeze(1).unsqueeze(1));
+}
+#else
+torch::Tensor Attended(const torch::Tensor& q, const torch::Tensor& k, const torch::Tensor& v,
+                       const torch::Tensor& key_mask) {
+  const double scale = 1.0 / std::sqrt(static_cast<double>(q.size(-1)));
+  torch::Tensor scores = torch::matmul(q * scale, k.transpose(-2, -1));
+  if (key_mask.defined()) {
+    scores = scores.masked_fill(key_mask.logical_not().unsqueeze(1).unsqueeze(1),
+                                -std::numeric_limits<float>::infinity());
+  }
+  return torch::matmul(torch::softmax(scores, -1), v);
+}
+#endif
+
+}  // namespace
 
 torch::Tensor Attention(const torch::Tensor& q, const torch::Tensor& k, const torch::Tensor& v) {
   return Attention(q, k, v, {});
@@ -11,14 +43,7 @@ torch::Tensor Attention(const torch::Tensor& q, const torch::Tensor& k, const to
 
 torch::Tensor Attention(const torch::Tensor& q, const torch::Tensor& k, const torch::Tensor& v,
                         const torch::Tensor& key_mask) {
-  const double scale = 1.0 / std::sqrt(static_cast<double>(q.size(-1)));
-  torch::Tensor scores = torch::matmul(q * scale, k.transpose(-2, -1));
-  if (key_mask.defined()) {
-    scores = scores.masked_fill(key_mask.logical_not().unsqueeze(1).unsqueeze(1),
-                                -std::numeric_limits<float>::infinity());
-  }
-  const torch::Tensor weights = torch::softmax(scores, -1);
-  const torch::Tensor mixed = torch::matmul(weights, v).transpose(1, 2);
+  const torch::Tensor mixed = Attended(q, k, v, key_mask).transpose(1, 2);
   return mixed.reshape({mixed.size(0), mixed.size(1), mixed.size(2) * mixed.size(3)});
 }
 
@@ -31,11 +56,16 @@ RmsNormImpl::RmsNormImpl(std::int64_t size) {
 }
 
 torch::Tensor RmsNormImpl::forward(const torch::Tensor& x) {
-  return x * torch::rsqrt(x.square().mean(-1, true) + 1e-6) * scale_;
+#ifdef SIMWRIGHT_TORCH_HAS_RMS_NORM
+  // The kernel takes a scale of the input's type only, which nn::MixedPrecision halves.
+  return at::rms_norm(x, {x.size(-1)}, scale_.to(x.scalar_type()), kNormEpsilon);
+#else
+  return x * torch::rsqrt(x.square().mean(-1, true) + kNormEpsilon) * scale_;
+#endif
 }
 
 torch::Tensor PlainLayerNorm(const torch::Tensor& x) {
-  return torch::layer_norm(x, {x.size(-1)}, {}, {}, 1e-6);
+  return torch::layer_norm(x, {x.size(-1)}, {}, {}, kNormEpsilon);
 }
 
 ModulationImpl::ModulationImpl(std::int64_t width, std::int64_t count) : count_(count) {

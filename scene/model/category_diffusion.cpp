@@ -1,6 +1,7 @@
 #include "scene/model/category_diffusion.h"
 
 #include "core/error.h"
+#include "nn/noise.h"
 
 namespace simwright::scene {
 namespace {
@@ -9,27 +10,37 @@ constexpr double kAlmostOne = 0.99999, kAlmostZero = 9e-6;  // Gu et al. 2022
 constexpr double kLeast = 1e-30;  // smallest probability in a logarithm: log is
                                   // -69
 
-}  // namespace
-
-CategoryDiffusion::CategoryDiffusion(int steps, int classes) : steps_(steps), classes_(classes) {
+// Returns `steps`. Throws core::Error for too few steps or classes.
+int CheckedSteps(int steps, int classes) {
   if (steps < 2 || classes < 1) {
     throw core::Error("a diffusion of classes has at least two steps and one class");
   }
-  const torch::Tensor clean = torch::tensor({1.0}, torch::kDouble);
-  kept_ = torch::cat({clean, torch::linspace(kAlmostOne, kAlmostZero, steps, torch::kDouble)});
-  masked_ =
-      torch::cat({1.0 - clean, torch::linspace(kAlmostZero, kAlmostOne, steps, torch::kDouble)});
-  replaced_ = (1.0 - kept_ - masked_).clamp_min(0.0) / classes;
+  return steps;
 }
 
-torch::Tensor CategoryDiffusion::At(const torch::Tensor& table, const torch::Tensor& t) const {
-  return table.to(t.device()).index_select(0, t + 1).reshape({-1, 1, 1});
+// Returns `clean`, that of the clean class, and the values of all steps.
+torch::Tensor LinearTable(double clean, double first, double last, int steps) {
+  return torch::cat({torch::full({1}, clean, torch::kDouble),
+                     torch::linspace(first, last, steps, torch::kDouble)});
+}
+
+}  // namespace
+
+CategoryDiffusion::CategoryDiffusion(int steps, int classes)
+    : steps_(CheckedSteps(steps, classes)),
+      classes_(classes),
+      kept_(LinearTable(1.0, kAlmostOne, kAlmostZero, steps)),
+      masked_(LinearTable(0.0, kAlmostZero, kAlmostOne, steps)),
+      replaced_((1.0 - kept_.On(torch::kCPU) - masked_.On(torch::kCPU)).clamp_min(0.0) / classes) {}
+
+torch::Tensor CategoryDiffusion::At(const nn::DeviceTable& table, const torch::Tensor& t) const {
+  return table.On(t.device()).index_select(0, t + 1).reshape({-1, 1, 1});
 }
 
 torch::Tensor CategoryDiffusion::Draw(const torch::Tensor& probabilities,
                                       const at::Generator& generator) {
   const torch::Tensor uniform =
-      torch::rand(probabilities.sizes(), generator, torch::kFloat).to(probabilities.device());
+      nn::UniformNumbers(probabilities.sizes(), generator).to(probabilities.device());
   const torch::Tensor gumbel =
       -torch::log((-torch::log(uniform.clamp_min(1e-20))).clamp_min(1e-20));
   return (torch::log(probabilities.clamp_min(kLeast)) + gumbel).argmax(-1);

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "nn/device_table.h"
 #include "nn/torch.h"
 
 namespace simwright::scene {
@@ -21,9 +22,9 @@ class CategoryDiffusion {
   int mask() const { return classes_; }
 
   // Return a_t, b_t and c_t, t = -1 .. steps - 1.
-  double Kept(int t) const { return kept_[t + 1].item<double>(); }
-  double Replaced(int t) const { return replaced_[t + 1].item<double>(); }
-  double Masked(int t) const { return masked_[t + 1].item<double>(); }
+  double Kept(int t) const { return kept_.At(t + 1); }
+  double Replaced(int t) const { return replaced_.At(t + 1); }
+  double Masked(int t) const { return masked_.At(t + 1); }
 
   // Samples x_t (B x N, int64) given x_0 (B x N) and t (B).
   torch::Tensor AddNoise(const torch::Tensor& clean, const torch::Tensor& t,
@@ -45,10 +46,10 @@ class CategoryDiffusion {
 
  private:
   // Returns `table` at t (B), as (B x 1 x 1), double.
-  torch::Tensor At(const torch::Tensor& table, const torch::Tensor& t) const;
+  torch::Tensor At(const nn::DeviceTable& table, const torch::Tensor& t) const;
 
   int steps_, classes_;
-  torch::Tensor kept_, replaced_, masked_;  // (steps + 1) float64
+  nn::DeviceTable kept_, masked_, replaced_;  // (steps + 1)
 };
 
 }  // namespace simwright::scene

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "nn/noise.h"
 
 namespace simwright::scene {
 namespace {
@@ -151,7 +152,7 @@ void LimitedClasses::Hold(const torch::Tensor& before, const torch::Tensor& tilt
   const std::int64_t entries = before.size(1);
   const torch::Tensor classes = before.cpu().contiguous();
   const torch::Tensor probabilities = tilted.cpu().contiguous();
-  const torch::Tensor uniform = torch::rand({before.size(0), entries}, generator, torch::kFloat);
+  const torch::Tensor uniform = nn::UniformNumbers({before.size(0), entries}, generator).cpu();
   torch::Tensor held = drawn->cpu().contiguous().clone();
   for (size_t i = 0; i < scenes_.size(); ++i) {
     if (scenes_[i].limits.empty()) continue;

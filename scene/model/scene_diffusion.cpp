@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "nn/noise.h"
 #include "scene/dataset/vocabulary.h"
 #include "scene/model/pose_schedule.h"
 
@@ -14,9 +15,8 @@ constexpr double kCrossEntropyShare = 5e-4;
 constexpr double kNoLogit = -1e9;            // of a class without probability
 constexpr double kLeastProbability = 1e-30;  // in a logarithm
 
-// Samples on the CPU, so that a seed gives the same numbers on every device.
 torch::Tensor NormalLike(const torch::Tensor& like, const at::Generator& generator) {
-  return torch::randn(like.sizes(), generator, torch::kFloat).to(like.device());
+  return nn::NormalNumbers(like.sizes(), generator).to(like.device());
 }
 
 torch::Tensor MeanSquare(const torch::Tensor& x) {
@@ -42,6 +42,25 @@ DenoisingBatch DenoisingBatch::Part(std::int64_t first, std::int64_t count) cons
           text.Part(first, count)};
 }
 
+void DenoisingBatch::CopyFrom(const DenoisingBatch& from) {
+  const auto copy = [](const torch::Tensor& one, torch::Tensor* to) {
+    if (!one.defined()) return;
+    if (to->defined()) {
+      to->copy_(one);
+    } else {
+      *to = one.clone();
+    }
+  };
+  copy(from.clean.poses, &clean.poses);
+  copy(from.clean.classes, &clean.classes);
+  copy(from.noisy.poses, &noisy.poses);
+  copy(from.noisy.classes, &noisy.classes);
+  copy(from.noisy.time, &noisy.time);
+  copy(from.pose_noise, &pose_noise);
+  copy(from.class_noise, &class_noise);
+  copy(from.class_weight, &class_weight);
+}
+
 DenoisingBatch DenoisingBatch::SortedByPromptLength() const {
   const torch::Tensor order = text.mask.sum(1).argsort();
   const auto sorted = [&](const torch::Tensor& all) {
@@ -65,7 +84,7 @@ SceneDiffusion::SceneDiffusion(const SceneModelOptions& options, int classes)
 DenoisingBatch SceneDiffusion::AddNoise(const CleanScenes& scenes,
                                         const at::Generator& generator) const {
   const torch::Device device = scenes.poses.device();
-  const torch::Tensor u = torch::rand({scenes.poses.size(0)}, generator, torch::kFloat);
+  const torch::Tensor u = nn::UniformNumbers({scenes.poses.size(0)}, generator);
   const torch::Tensor t = (poses_.steps() * u.pow(time_power_)).to(torch::kLong);
   DenoisingBatch batch;
   batch.clean = scenes;
@@ -153,10 +172,9 @@ std::vector<int> SceneDiffusion::Times(int count) const {
 
 NoisyScenes SceneDiffusion::Noise(int count, int entries, const at::Generator& generator) const {
   NoisyScenes scenes;
-  scenes.poses = torch::randn({count, entries, kPoseWidth}, generator, torch::kFloat);
-  scenes.classes =
-      continuous_ ? torch::randn({count, entries, classes_.classes()}, generator, torch::kFloat)
-                  : torch::full({count, entries}, classes_.mask(), torch::kLong);
+  scenes.poses = nn::NormalNumbers({count, entries, kPoseWidth}, generator);
+  scenes.classes = continuous_ ? nn::NormalNumbers({count, entries, classes_.classes()}, generator)
+                               : torch::full({count, entries}, classes_.mask(), torch::kLong);
   return scenes;
 }
 

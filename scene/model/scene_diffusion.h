@@ -35,6 +35,9 @@ struct DenoisingBatch {
 
   // Returns `count` scenes from `first` on: views, not copies.
   DenoisingBatch Part(std::int64_t first, std::int64_t count) const;
+  // Copies the values of a batch of the same shapes, without prompts, into the own tensors, which
+  // are made if there are none.
+  void CopyFrom(const DenoisingBatch& from);
   // Returns the scenes by the length of their prompts, the shortest first, so that parts of the
   // batch have little padding.
   DenoisingBatch SortedByPromptLength() const;

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "nn/compute.h"
+#include "nn/noise.h"
 #include "scene/model/inpainting.h"
 #include "scene/model/limited_classes.h"
 #include "scene/model/prompt_encoder.h"
@@ -74,8 +75,9 @@ std::vector<float> SceneModel::Network::InpaintBatch(const std::vector<float>& g
   times.push_back(-1);
   // Each batch samples from its own stream: sampling more scenes does not change the first ones.
   core::Rng rng = core::StreamRng(options.seed, static_cast<std::uint64_t>(first));
-  const at::Generator generator = at::detail::createCPUGenerator(rng());
-  const at::Generator clamp_generator = at::detail::createCPUGenerator(rng());
+  const bool on_device = options.noise_on_device;
+  const at::Generator generator = nn::SeededGenerator(rng(), device, on_device);
+  const at::Generator clamp_generator = nn::SeededGenerator(rng(), device, on_device);
   const KeptTokens kept(given, mask, first, some, metadata.vocabulary, metadata.range, device);
   NoisyScenes scenes = diffusion.Noise(some, metadata.vocabulary.entries, generator);
   scenes.poses = scenes.poses.to(device);

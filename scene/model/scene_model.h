@@ -27,6 +27,9 @@ struct SampleOptions {
   // bit-identical for any number of threads, and a few scenes take less time than as a batch.
   bool one_by_one = false;
   std::uint64_t seed = 1;
+  // True: noise is drawn on the model's device, which is faster on a GPU. Its numbers are others
+  // than those of a CPU, so that a seed gives other scenes.
+  bool noise_on_device = false;
   // The prompts of a model that reads them: scene i has prompts[i % prompts.size()], as
   // Prompt::Text() writes them; none: all scenes are unprompted.
   std::vector<std::string> prompts;

@@ -6,9 +6,13 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/random.h"
+#include "nn/captured_work.h"
 #include "nn/compute.h"
 #include "nn/mixed_precision.h"
+#include "nn/noise.h"
+#include "nn/prefetcher.h"
 #include "nn/trainer.h"
+#include "scene/model/loss_means.h"
 #include "scene/model/training_data.h"
 #include "scene/model/training_prompts.h"
 #include "scene/model/weights_file.h"
@@ -21,38 +25,6 @@ constexpr int kBadInARow = 20;     // most consecutive losses that are not finit
 constexpr int kHeldOutBatch = 64;  // scenes, in one batch
 constexpr int kTypesPerUpdate = 2;
 
-// The sums of the losses since the last line.
-class LossMeans {
- public:
-  // Adds the losses of the shares of a batch.
-  void Add(const std::vector<SceneLoss>& losses, const std::vector<double>& shares) {
-    for (size_t i = 0; i < losses.size(); ++i) {
-      if (shares[i] == 0.0) continue;
-      sums_.total += shares[i] * losses[i].total.item<double>();
-      sums_.translation += shares[i] * losses[i].translation.item<double>();
-      sums_.rotation += shares[i] * losses[i].rotation.item<double>();
-      sums_.classes += shares[i] * losses[i].divergence.item<double>();
-      sums_.cross_entropy += shares[i] * losses[i].cross_entropy.item<double>();
-    }
-    ++count_;
-  }
-  LossRecord Take(int step) {
-    LossRecord mean = sums_;
-    mean.step = step;
-    for (double* const one :
-         {&mean.total, &mean.translation, &mean.rotation, &mean.classes, &mean.cross_entropy}) {
-      *one = count_ > 0 ? *one / count_ : NAN;
-    }
-    sums_ = {};
-    count_ = 0;
-    return mean;
-  }
-
- private:
-  LossRecord sums_;
-  int count_ = 0;
-};
-
 class Training {
  public:
   Training(const std::vector<const SceneDataset*>& datasets, const SceneModelOptions& model,
@@ -62,7 +34,8 @@ class Training {
         output_(output),
         device_(nn::BestDevice()),
         metadata_{{}, model, data_.types().front().range},
-        diffusion_(model, ClassCount()) {
+        diffusion_(model, ClassCount()),
+        losses_stay_(options.losses_on_device.value_or(device_.is_cuda())) {
     data_.Describe(&metadata_);
     if (!metadata_.types.empty() && !model.text) {
       throw core::Error("a model of several scene types reads the type in its prompts", "",
@@ -80,6 +53,7 @@ class Training {
       average_->SetShapes(options.shapes);
     }
     trainer_ = std::make_unique<nn::Trainer>(denoiser_.get(), options.trainer, output / kStateFile);
+    if (options.cuda_graph) CaptureUpdates();
   }
 
   SceneTrainingReport Run(core::Progress* progress) {
@@ -88,15 +62,28 @@ class Training {
     losses_ = ReadLosses(output_ / kLossesFile, first);
     data_.Start(options_.seed + first, options_.buffer);
     core::Rng rng = core::StreamRng(options_.seed, static_cast<std::uint64_t>(first) + 1);
-    const at::Generator generator = at::detail::createCPUGenerator(rng());
+    const at::Generator generator = nn::SeededGenerator(rng(), device_, options_.noise_on_device);
+    MakeHeldOutBatches();
     progress->Stage("training", options_.trainer.steps - first);
+    // From here on only the thread of the batches touches `data_`'s streams, `rng` and `generator`.
+    nn::Prefetcher<std::vector<DenoisingBatch>> batches(
+        options_.prefetch.value_or(device_.is_cuda()), first, options_.trainer.steps,
+        [&](int step) { return Batches(step, &rng, generator); });
     for (int step = first; step < options_.trainer.steps; ++step) {
-      Step(step, Batches(step, &rng, generator));
+      if (captured_) {
+        StepCaptured(step, batches.Next());
+      } else if (losses_stay_) {
+        StepOnDevice(step, batches.Next());
+      } else {
+        Step(step, batches.Next());
+      }
       const bool last = step + 1 == options_.trainer.steps;
       if ((step + 1) % options_.report_every == 0 || last) Record(step + 1);
       if (trainer_->SaveDue(step)) Save(step + 1);
       progress->Advance();
     }
+    // Errors of kernels that are still running are reported here, not while the program ends.
+    if (device_.is_cuda()) torch::cuda::synchronize();
     progress->Finish();
     SceneTrainingReport report;
     report.weights = output_ / kWeightsFile;
@@ -176,37 +163,87 @@ class Training {
       }
       return sum;
     });
-    if (std::isfinite(total)) {
-      means_.Add(losses, weights);
-      bad_ = 0;
-      return;
+    if (std::isfinite(total)) means_.Add(losses, weights);
+    RequireConvergence(step);
+  }
+
+  SceneLoss WholeLoss(const DenoisingBatch& batch) const {
+    const nn::MixedPrecision half(device_, options_.bfloat16_on_gpu && device_.is_cuda());
+    return diffusion_.Loss(denoiser_.get(), batch);
+  }
+
+  // Makes the update of the batch `captured_batch_`, whose terms it puts into `captured_terms_`.
+  void CaptureUpdates() {
+    if (prompts_ || data_.types().size() > 1) {
+      throw core::Error("a CUDA graph needs batches of one shape", "--cuda-graph",
+                        "leave it out for models that read prompts");
     }
-    if (++bad_ < kBadInARow) return;
+    losses_stay_ = true;
+    const bool can = nn::CapturedWork::IsAvailable(device_) && trainer_->IsFused();
+    captured_ = std::make_unique<nn::CapturedWork>(can ? device_ : torch::kCPU, [this] {
+      const SceneLoss loss = WholeLoss(captured_batch_);
+      trainer_->Update(loss.total);
+      captured_terms_ = TermsOf(loss);
+    });
+  }
+
+  void StepCaptured(int step, const std::vector<DenoisingBatch>& batches) {
+    captured_batch_.CopyFrom(batches.front());
+    trainer_->SetStep(step);
+    captured_->Run();
+    means_.AddOnDevice(captured_terms_);
+    if ((step + 1) % kBadInARow == 0) RequireConvergence(step);
+  }
+
+  // The same as Step with each batch as a whole and without reading its losses back.
+  void StepOnDevice(int step, const std::vector<DenoisingBatch>& batches) {
+    torch::Tensor total, terms;
+    for (const DenoisingBatch& batch : batches) {
+      const double share = static_cast<double>(batch.clean.poses.size(0)) / options_.batch;
+      const SceneLoss loss = WholeLoss(batch);
+      total = total.defined() ? total + share * loss.total : share * loss.total;
+      terms = terms.defined() ? terms + share * TermsOf(loss) : share * TermsOf(loss);
+    }
+    trainer_->Step(step, total);
+    means_.AddOnDevice(terms);
+    if ((step + 1) % kBadInARow == 0) RequireConvergence(step);
+  }
+
+  void RequireConvergence(int step) const {
+    if (trainer_->SkippedInARow() < kBadInARow) return;
     throw core::Error(
         "the training has diverged: the loss is not a number at step " + std::to_string(step),
         output_.string(),
         "the last good state is kept; resume from it with --resume and a lower rate");
   }
 
-  // Returns the loss of the averaged weights on held-out scenes, at the same times and noise in
-  // every call; the mean over the types.
-  double HeldOutLoss() {
-    if (data_.held_out() == 0) return NAN;
+  // Makes the batches of held-out scenes, one for each type, whose times and noise stay the same.
+  // None where a type has no held-out scenes.
+  void MakeHeldOutBatches() {
+    held_out_.clear();
     const torch::NoGradGuard no_gradient;
-    trainer_->CopyAverageTo(average_.get());
     core::Rng rng = core::StreamRng(options_.seed, 0);
-    const at::Generator generator = at::detail::createCPUGenerator(rng());
+    const at::Generator generator = nn::SeededGenerator(rng(), device_, /*on_device=*/false);
     const int types = static_cast<int>(data_.types().size());
-    double sum = 0.0;
     for (int i = 0; i < types; ++i) {
       const TrainingType& type = data_.types()[static_cast<size_t>(i)];
       const int count = std::min(type.held_out, std::max(1, kHeldOutBatch / types));
-      if (count == 0) return NAN;
+      if (count == 0) return held_out_.clear();
       const std::vector<float> tokens = type.dataset->Read(type.training, count);
-      sum +=
-          diffusion_.Loss(average_.get(), BatchOf(i, tokens, &rng, generator)).total.item<double>();
+      held_out_.push_back(BatchOf(i, tokens, &rng, generator));
     }
-    return sum / types;
+  }
+
+  // Returns the loss of the averaged weights on held-out scenes; the mean over the types.
+  double HeldOutLoss() {
+    if (held_out_.empty()) return NAN;
+    const torch::NoGradGuard no_gradient;
+    trainer_->CopyAverageTo(average_.get());
+    double sum = 0.0;
+    for (const DenoisingBatch& batch : held_out_) {
+      sum += diffusion_.Loss(average_.get(), batch).total.item<double>();
+    }
+    return sum / static_cast<double>(held_out_.size());
   }
 
   void Record(int step) {
@@ -233,9 +270,13 @@ class Training {
   std::unique_ptr<TrainingPrompts> prompts_;  // null: the model reads none
   std::shared_ptr<Denoiser> denoiser_, average_;
   std::unique_ptr<nn::Trainer> trainer_;
+  std::vector<DenoisingBatch> held_out_;
   LossMeans means_;
   std::vector<LossRecord> losses_;
-  int bad_ = 0;
+  bool losses_stay_;  // on the device until a line of the log
+  DenoisingBatch captured_batch_;
+  torch::Tensor captured_terms_;
+  std::unique_ptr<nn::CapturedWork> captured_;  // null: updates are not captured
 };
 
 }  // namespace

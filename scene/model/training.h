@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,17 @@ struct SceneTrainingOptions {
   int buffer = 16384;           // scenes held in memory (SceneStream)
   int report_every = 50;        // steps per line of the losses
   bool bfloat16_on_gpu = true;  // for matrix products; as in the paper
+  // True: a thread makes the next batch while the network learns from the last one, with the same
+  // numbers. None: with a GPU only; two cores are busy with the network (docs/scenes.md).
+  std::optional<bool> prefetch = {};
+  // True: an update takes each batch as a whole, and its losses stay on the device until they are
+  // reported, so that nothing waits for it. None: with a GPU only.
+  std::optional<bool> losses_on_device = {};
+  // True: the kernels of an update are launched together as a CUDA graph, on a GPU where
+  // nn::CapturedWork is available; elsewhere nothing changes. For models without prompts.
+  bool cuda_graph = false;
+  // True: noise is drawn on the network's device: faster on a GPU, with other numbers than a CPU's.
+  bool noise_on_device = false;
   std::uint64_t seed = 1;
   AssetShapes shapes;  // of the dataset's categories, for a model with classes by shape
   // Options of a model that reads prompts: the share of scenes that train without one, the most

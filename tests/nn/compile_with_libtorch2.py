@@ -24,6 +24,18 @@ HEADERS = pathlib.Path(torch.__file__).parent / "include"
 TORCH_HEADER = "nn/torch.h"
 
 
+def cuda_folders():
+    """Returns the include folders of CUDA among Python's packages; none where one is missing."""
+    folders = []
+    for header in ("cuda_runtime_api.h", "crt/host_config.h"):
+        found = [path for root in sys.path for path in
+                 sorted(pathlib.Path(root).glob(f"nvidia/*/include/{header}"))]
+        if not found:
+            return []
+        folders.append(str(found[0])[:-len(header) - 1])
+    return folders
+
+
 class Sources:
     """Answers which files of the source folder include libtorch, directly or not."""
 
@@ -46,6 +58,10 @@ def command_against(entry, header):
     kept = [words[0], "-fsyntax-only", "-Winvalid-pch", "-include", str(header)]
     for folder in (HEADERS, HEADERS / "torch/csrc/api/include"):
         kept += ["-isystem", str(folder)]
+    if torch.version.cuda and cuda_folders():
+        kept.append("-DSIMWRIGHT_CUDA_GRAPHS")
+        for folder in cuda_folders():
+            kept += ["-isystem", folder]
     skip = False
     for i, word in enumerate(words[1:], 1):
         if skip or word in ("-c", "-Winvalid-pch", "-fpch-preprocess", entry["file"]):

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
+#include <thread>
+
 #include "assets/primitive_meshes.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -208,7 +212,118 @@ TEST(SceneTraining, GoesOnWhereItStopped) {
                core::Error);
 }
 
-TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
+// A thread that makes the batches changes no number, not after a resume either.
+TEST(SceneTraining, PrefetchedBatchesGiveTheSameWeights) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 150);
+  const SceneDataset dataset(folder.path());
+  core::Progress progress;
+  SceneModelOptions model = SmallSceneModel();
+  model.text = true;
+  const auto train = [&](bool ahead, const std::string& name) {
+    SceneTrainingOptions options = Short(20);
+    options.batch = 16;
+    options.text_pieces = 80;
+    options.buffer = 40;  // blocks are read from the file during the training
+    options.prefetch = ahead;
+    TrainSceneModel(dataset, model, options, folder.path() / name, &progress);
+    options.trainer.steps = 40;
+    options.trainer.resume = true;
+    return TrainSceneModel(dataset, model, options, folder.path() / name, &progress);
+  };
+  const SceneTrainingReport here = train(false, "here"), there = train(true, "there");
+  EXPECT_EQ(LossesText(here.losses), LossesText(there.losses));
+  EXPECT_EQ(core::ReadFile(here.weights), core::ReadFile(there.weights));
+  EXPECT_EQ(here.losses.back().step, 40);
+}
+
+// Losses that are read only when they are reported are the same, and so are the weights.
+TEST(SceneTraining, LossesThatStayOnTheDeviceAreTheSame) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 100);
+  const SceneDataset dataset(folder.path());
+  core::Progress progress;
+  const auto train = [&](bool stay, const std::string& name, bool capture = false) {
+    SceneTrainingOptions options = Short(40);
+    options.losses_on_device = stay;
+    options.cuda_graph = capture;
+    return TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / name, &progress);
+  };
+  const SceneTrainingReport read = train(false, "read"), stay = train(true, "stay");
+  ASSERT_EQ(read.losses.size(), 4u);
+  ASSERT_EQ(stay.losses.size(), 4u);
+  for (size_t i = 0; i < read.losses.size(); ++i) {
+    const LossRecord &a = read.losses[i], &b = stay.losses[i];
+    EXPECT_EQ(a.step, b.step);
+    for (const auto member :
+         {&LossRecord::total, &LossRecord::translation, &LossRecord::rotation, &LossRecord::classes,
+          &LossRecord::cross_entropy, &LossRecord::held_out}) {
+      EXPECT_NEAR(a.*member, b.*member, 1e-5 * std::abs(a.*member));
+    }
+  }
+  // Updates that a GPU would capture see each new batch.
+  const SceneTrainingReport captured = train(true, "captured", true);
+  EXPECT_EQ(LossesText(captured.losses), LossesText(stay.losses));
+  EXPECT_EQ(core::ReadFile(captured.weights), core::ReadFile(stay.weights));
+  SceneModelOptions prompted = SmallSceneModel();
+  prompted.text = true;
+  SceneTrainingOptions options = Short(40);
+  options.cuda_graph = true;
+  EXPECT_THROW(TrainSceneModel(dataset, prompted, options, folder.path() / "text", &progress),
+               core::Error);
+}
+
+// Fused kernels, which Debian's libtorch has not, learn the same (tests/nn/run_with_libtorch2.py).
+TEST(SceneTraining, FusedUpdatesLearnTheSame) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 100);
+  const SceneDataset dataset(folder.path());
+  core::Progress progress;
+  const auto train = [&](nn::UpdateKernels kernels, const std::string& name) {
+    SceneTrainingOptions options = Short(20);
+    options.trainer.kernels = kernels;
+    TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / name, &progress);
+    options.trainer.steps = 40;
+    options.trainer.resume = true;
+    options.losses_on_device = kernels == nn::UpdateKernels::kFused;
+    return TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / name, &progress);
+  };
+  SceneTrainingReport fused;
+  try {
+    fused = train(nn::UpdateKernels::kFused, "fused");
+  } catch (const core::Error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const SceneTrainingReport separate = train(nn::UpdateKernels::kSeparate, "separate");
+  ASSERT_EQ(fused.losses.size(), 4u);
+  for (size_t i = 0; i < 4; ++i) {
+    const double total = separate.losses[i].total, held_out = separate.losses[i].held_out;
+    EXPECT_NEAR(fused.losses[i].total, total, 1e-3 * total) << i;
+    EXPECT_NEAR(fused.losses[i].held_out, held_out, 1e-3 * held_out) << i;
+  }
+}
+
+TEST(SceneTraining, StopsBesideAThreadOfBatches) {
+  const core::TemporaryFolder folder;
+  WriteScenes(folder.path(), 50);
+  core::Progress progress;
+  SceneTrainingOptions options = Short(100000);
+  options.prefetch = true;
+  const fs::path weights = folder.path() / "run" / kWeightsFile;
+  std::jthread request([&] {  // once a state was saved
+    for (int i = 0; i < 6000 && !fs::exists(weights); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    core::RequestCancel();
+  });
+  EXPECT_THROW(TrainSceneModel(SceneDataset(folder.path()), SmallSceneModel(), options,
+                               folder.path() / "run", &progress),
+               core::Cancelled);
+  core::ClearCancelRequest();
+  EXPECT_GE(SceneModel::Load(weights).metadata().steps, 20);
+}
+
+void ExpectDivergence(bool losses_on_device) {
   const core::TemporaryFolder folder;
   WriteScenes(folder.path(), 50);
   const SceneDataset dataset(folder.path());
@@ -222,6 +337,7 @@ TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
   options.trainer.resume = true;
   options.trainer.learning_rate = 1e18;
   options.trainer.largest_norm = 1e30;
+  options.losses_on_device = losses_on_device;
   try {
     TrainSceneModel(dataset, SmallSceneModel(), options, folder.path() / "run", &progress);
     FAIL() << "a rate of 1e18 did not diverge";
@@ -230,6 +346,11 @@ TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
   }
   EXPECT_EQ(core::ReadFile(good.weights), weights);
   EXPECT_EQ(SceneModel::Load(good.weights).metadata().steps, 40);
+}
+
+TEST(SceneTraining, KeepsTheLastGoodWeightsWhereItDiverges) {
+  ExpectDivergence(false);
+  ExpectDivergence(true);
 }
 
 TEST(SceneModel, RefusesWhatIsNone) {
