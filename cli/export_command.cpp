@@ -286,7 +286,7 @@ void AddExport(CLI::App* app, CommonOptions* common, Run* run) {
   command->footer(
       "Examples:\n  simwright export open --format ros2 --joint-names fr3 -o open.yaml\n"
       "  simwright export open --format robomimic --episodes 50 -o open.hdf5\n"
-      "  simwright export --skill open_drawer --format onnx -o open_drawer.onnx\n"
+      "  simwright export --skill pick_up_cup --format onnx -o pick_up_cup.onnx\n"
       "  simwright export --skill open_drawer --format lerobot --episodes 50 -o drawers\n"
       "  simwright export tasks.json --task open_drawer_unit_1_drawer_1 --world --format mjcf -o "
       "w\n"

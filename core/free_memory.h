@@ -2,9 +2,9 @@
 
 namespace simwright::core {
 
-// Returns freed memory to the operating system, at most once a second. Between the items of long
-// work: glibc keeps what lies below a block that is still in use, and grew to gigabytes over
-// hundreds of assets of which 94 MB were in use. Thread-safe; without effect in other C libraries.
+// Returns freed memory to the operating system, at most once a second. Long work calls it between
+// its items: glibc keeps what lies below a block that is still in use, so that a process with 94 MB
+// in use held 1.3 GB after 134 assets. Thread-safe; without effect in other C libraries.
 void ReturnFreeMemory();
 
 }  // namespace simwright::core

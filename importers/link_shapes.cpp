@@ -197,9 +197,13 @@ bool FillsItsHull(core::TriangleMesh piece, const core::TriangleMesh& hull) {
 bool IsWithinTolerance(const core::TriangleMesh& hull, const core::TriangleMesh& piece,
                        double thickness, const asset_build::PartBudget& budget) {
   if (budget.tolerance == 0.0) return true;
-  const std::vector<double> distances =
-      geometry::DistancesToSurface(geometry::SampleSurface(hull, kHullSamples, 1), piece);
-  return *std::max_element(distances.begin(), distances.end()) <= budget.tolerance + thickness;
+  const auto farthest = [](const core::TriangleMesh& from, const core::TriangleMesh& to) {
+    std::vector<Eigen::Vector3d> points = geometry::SampleSurface(from, kHullSamples, 1);
+    points.insert(points.end(), from.vertices.begin(), from.vertices.end());  // also thin tips
+    const std::vector<double> distances = geometry::DistancesToSurface(points, to);
+    return *std::max_element(distances.begin(), distances.end());
+  };
+  return std::max(farthest(hull, piece), farthest(piece, hull)) <= budget.tolerance + thickness;
 }
 
 std::vector<core::TriangleMesh> PartsOfPiece(const core::TriangleMesh& piece, double whole,

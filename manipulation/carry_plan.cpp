@@ -64,10 +64,10 @@ SurfacePoints PayloadPoints(const Interaction& interaction, const tasks::WorldSt
 
 // Returns the largest tilt (rad) of a payload, upright at `from`, on the way of `plan`.
 double LargestTilt(const PlanningArm& context, const CarryPlan& plan,
-                   const robot::JointVector& from) {
+                   const robot::JointVector& from, const Vector3d& up_in_base) {
   const robot::Arm& arm = context.robot->arm;
   const auto up_at = [&](const robot::JointVector& at) -> Vector3d {
-    return robot::ForwardKinematics(arm, at).linear().transpose() * Vector3d::UnitZ();
+    return robot::ForwardKinematics(arm, at).linear().transpose() * up_in_base;
   };
   const Vector3d up = up_at(from);  // in the tool's frame
   JointPath path = plan.waypoints;
@@ -87,14 +87,19 @@ double LargestTilt(const PlanningArm& context, const CarryPlan& plan,
 // Keeps the plan that tilts its payload the least beyond kLevel; of two alike the first.
 class LevelPlan {
  public:
-  // `matters`: the payload hangs from its rim; else all plans are level.
-  LevelPlan(const PlanningArm& context, const robot::JointVector& from, bool matters)
-      : context_(context), from_(from), matters_(matters) {}
+  // The tilt matters where the target hangs from its rim; else all plans are level.
+  LevelPlan(const PlanningArm& context, const Interaction& interaction,
+            const robot::JointVector& from)
+      : context_(context),
+        from_(from),
+        up_in_base_(interaction.subtask.start.world_from_robot.linear().transpose() *
+                    Vector3d::UnitZ()),
+        matters_(interaction.target->rim > 0.0) {}
 
   // Returns true if the plan is level.
   bool Add(const CarryPlan& plan) {
     const double tilt =
-        matters_ ? std::max(0.0, LargestTilt(context_, plan, from_) - kLevel) : 0.0;
+        matters_ ? std::max(0.0, LargestTilt(context_, plan, from_, up_in_base_) - kLevel) : 0.0;
     if (!best_ || tilt < tilt_) {
       best_ = plan;
       tilt_ = tilt;
@@ -107,6 +112,7 @@ class LevelPlan {
  private:
   const PlanningArm& context_;
   const robot::JointVector& from_;
+  Vector3d up_in_base_;
   bool matters_;
   std::optional<CarryPlan> best_;
   double tilt_ = 0.0;  // rad beyond kLevel
@@ -120,9 +126,9 @@ std::optional<CarryPlan> PlanWithMargin(const PlanningArm& context, const Intera
                                         std::optional<CarryPlan>* any) {
   CollisionChecker clearance(context, interaction, state, interaction.target->object);
   clearance.SetPayload(PayloadPoints(interaction, state));
-  LevelPlan straight(context, from, interaction.target->rim > 0.0);
-  LevelPlan around(context, from, interaction.target->rim > 0.0);  // through waypoints
-  std::vector<CarryPlan> blocked;  // not reachable by simple waypoints
+  LevelPlan straight(context, interaction, from);
+  LevelPlan around(context, interaction, from);  // through waypoints
+  std::vector<CarryPlan> blocked;                // not reachable by simple waypoints
   const auto stay_clear = [&](const CarryPlan& plan) {
     if (margin > 0.0) clearance.SetClearance(margin, {from, plan.arrival});
   };

@@ -43,7 +43,7 @@ constexpr int kMostCandidates = 6;
 // The rise per metre of the path over a rim: about the reach of the fingers into a cup over its
 // width.
 constexpr double kRise = 1.0;
-constexpr double kPalmEdge = 0.04;  // m: the palm edge's drop over 1 - cos(lean)
+constexpr double kPalmEdge = 0.04;        // m: the palm edge's drop over 1 - cos(lean)
 constexpr double kPalmClearance = 0.003;  // m, of a leaning gripper above the rim of a cup
 constexpr double kReachTurns[] = {0.25 * M_PI, 0.5 * M_PI, 0.75 * M_PI};  // of the closing axis
 constexpr double kSameLine = 0.97;  // the cosine of about 14 degrees
@@ -115,7 +115,8 @@ struct Candidate {
   double seconds = 0.0;  // to reach it, every joint at its highest speed
 };
 
-// Returns the objects in a sliding part of the target's object: those whose middles are in its AABB.
+// Returns the movable objects in a sliding part of the target's object: those whose middles are in
+// its AABB.
 std::vector<size_t> ObjectsInPart(const Interaction& interaction, const tasks::WorldState& state) {
   const InteractionTarget& target = *interaction.target;
   const tasks::ObjectJoint& joint = interaction.model.objects[static_cast<size_t>(target.object)]
@@ -124,8 +125,9 @@ std::vector<size_t> ObjectsInPart(const Interaction& interaction, const tasks::W
   if (joint.type != reward::RewardJointType::kPrismatic) return inside;
   const Eigen::AlignedBox3d part =
       tasks::WorldAabb(interaction.model, state, target.object, joint.link);
-  for (const int object : interaction.placed) {
-    if (object == target.object) continue;
+  for (const tasks::AssetPlacement& placement : interaction.subtask.start.placements) {
+    const int object = interaction.model.Find(placement.asset);
+    if (object == target.object || placement.fixed) continue;
     const Vector3d middle = tasks::WorldAabb(interaction.model, state, object).center();
     if (part.contains(middle)) inside.push_back(static_cast<size_t>(object));
   }

@@ -41,11 +41,24 @@ struct CapturedWork::Graph {
     stream.synchronize();
   }
 
+  // Ends a capture whose work failed: else the stream would go on capturing.
+  void EndCapture() noexcept {
+    try {
+      graph.capture_end();
+    } catch (...) {  // the failure of the work is the one to report
+    }
+  }
+
   void Capture(const std::function<void()>& work) {
     OnStream([&] {
       // Other threads, such as that of the next batch, may allocate and copy meanwhile.
       graph.capture_begin({0, 0}, cudaStreamCaptureModeThreadLocal);
-      work();
+      try {
+        work();
+      } catch (...) {
+        EndCapture();
+        throw;
+      }
       graph.capture_end();
     });
     is_captured = true;

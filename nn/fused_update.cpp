@@ -106,6 +106,7 @@ class FusedUpdate : public ParameterUpdate {
   };
 
   torch::Tensor Number(double value, torch::ScalarType type) const {
+    if (parameters_.empty()) throw core::Error("the module has no parameters");
     return torch::full({}, value, parameters_.front().options().dtype(type).requires_grad(false));
   }
 

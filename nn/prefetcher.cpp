@@ -17,11 +17,16 @@ PrefetchThread::PrefetchThread(int first, int last, std::function<void(int)> mak
   pthread_sigmask(SIG_SETMASK, &all, &before);
   const at::ThreadLocalState state;
   const int loops = at::get_num_threads();
-  thread_ = std::thread([this, first, last, state, loops] {
-    const at::ThreadLocalStateGuard as_there(state);
-    SetLoopThreads(loops);
-    Run(first, last);
-  });
+  try {
+    thread_ = std::thread([this, first, last, state, loops] {
+      const at::ThreadLocalStateGuard as_there(state);
+      SetLoopThreads(loops);
+      Run(first, last);
+    });
+  } catch (...) {
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    throw;
+  }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 

@@ -315,9 +315,14 @@ class ExportedTask:
         way, lead = goal - self.sent, self.options["longest_lead"]
         rate = min(1.0 / self.dt, self._fastest(way))
         ahead = self.sent - self.data.qpos[self.q_index]
-        held = np.clip(rate * way, np.minimum(0.0, (-lead - ahead) / self.dt),
-                       np.maximum(0.0, (lead - ahead) / self.dt))
         most = 0.7 * self.acceleration * self.dt
+        wanted_rate = rate * way
+        if self.at_destination:  # all joints accelerate in proportion: the tool stays on its line
+            missing = wanted_rate - self.rate
+            share = np.min(most / np.maximum(np.abs(missing), most))
+            wanted_rate = self.rate + share * missing
+        held = np.clip(wanted_rate, np.minimum(0.0, (-lead - ahead) / self.dt),
+                       np.maximum(0.0, (lead - ahead) / self.dt))
         self.rate = self.rate + np.clip(held - self.rate, -most, most)
         moved = np.clip(self.sent + self.dt * self.rate, self.lower, self.upper)
         self.rate, self.sent = (moved - self.sent) / self.dt, moved

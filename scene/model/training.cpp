@@ -178,8 +178,9 @@ class Training {
       throw core::Error("a CUDA graph needs batches of one shape", "--cuda-graph",
                         "leave it out for models that read prompts");
     }
-    losses_stay_ = true;
     const bool can = nn::CapturedWork::IsAvailable(device_) && trainer_->IsFused();
+    if (!can && !losses_stay_) return;  // on a CPU updates remain as they are
+    losses_stay_ = true;
     captured_ = std::make_unique<nn::CapturedWork>(can ? device_ : torch::kCPU, [this] {
       const SceneLoss loss = WholeLoss(captured_batch_);
       trainer_->Update(loss.total);
@@ -187,12 +188,17 @@ class Training {
     });
   }
 
+  // Returns true if the losses of the last updates are read from the device after `step`.
+  bool IsTimeToLook(int step) const {
+    return (step + 1) % kBadInARow == 0 || step + 1 == options_.trainer.steps;
+  }
+
   void StepCaptured(int step, const std::vector<DenoisingBatch>& batches) {
     captured_batch_.CopyFrom(batches.front());
     trainer_->SetStep(step);
     captured_->Run();
     means_.AddOnDevice(captured_terms_);
-    if ((step + 1) % kBadInARow == 0) RequireConvergence(step);
+    if (IsTimeToLook(step)) RequireConvergence(step);
   }
 
   // The same as Step with each batch as a whole and without reading its losses back.
@@ -206,7 +212,7 @@ class Training {
     }
     trainer_->Step(step, total);
     means_.AddOnDevice(terms);
-    if ((step + 1) % kBadInARow == 0) RequireConvergence(step);
+    if (IsTimeToLook(step)) RequireConvergence(step);
   }
 
   void RequireConvergence(int step) const {

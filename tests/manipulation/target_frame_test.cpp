@@ -33,6 +33,27 @@ skills::SkillSubtask PushCup(double x) {
   return scene;
 }
 
+// The gripper retreats along the segment from where it was: the frame is at most 6 cm ahead of it.
+TEST(TargetFrame, RetreatsAlongALine) {
+  const auto skill = TargetFrameMake(skills::OpenDoor());
+  const skills::SkillVariant& variant = skill->variants.front();
+  tasks::WorldState state = variant.start;
+  state.opening = 0.08;  // m: released
+  state.gripper.translation() = Vector3d(0.4, 0.1, 0.3);
+  const Vector3d begin = state.gripper.translation(), way(-0.2, 0.03, 0.15);
+  TargetFrame frame(variant, state, Vector3d::UnitY(), 0.0, way);
+  ASSERT_TRUE(frame.retreating());
+  for (const double share : {0.0, 0.3, 0.6}) {
+    // A gripper that has left the line is led back to it.
+    state.gripper.translation() = begin + share * way + Vector3d(0.0, 0.005, 0.0);
+    for (int i = 0; i < 3; ++i) frame.Update(state);
+    const Vector3d next = frame.world_from_target().translation();
+    const double done = (next - begin).dot(way) / way.squaredNorm();
+    EXPECT_LT((next - begin - done * way).norm(), 1e-9) << share;
+    EXPECT_NEAR((done - share) * way.norm(), 0.06, 0.005) << share;
+  }
+}
+
 TEST(TargetFrame, TheWayThatADoorIsPulledIsFree) {
   const auto skill = TargetFrameMake(skills::OpenDoor());
   const skills::SkillVariant& variant = skill->variants.front();

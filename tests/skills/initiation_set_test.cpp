@@ -84,7 +84,7 @@ TEST(NextSkill, EndsAreWorthWhatWasSeenFromTheirLike) {
     const bool easy = end.state.roots[0].translation().y() > 0.0;
     right += (successor.SuccessProbability(end) > 0.5) == easy;
   }
-  EXPECT_GE(right, 48);  // 30 by chance
+  EXPECT_GE(right, 48);  // 30 by chance; 50 seen, and 52 with coarser outlines of the cup
 }
 
 // The share of an end state scales only the reward of the success that ends an episode.

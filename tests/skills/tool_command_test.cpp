@@ -201,5 +201,27 @@ TEST(ActionTarget, AHandThatLeansIsMovedInTheLevelFrame) {
   EXPECT_NEAR(Eigen::AngleAxisd(moved.linear()).angle(), lean, 1e-9);
 }
 
+// Joints that accelerate in proportion keep to the straight line to their goal; each at its own
+// limit, they do not.
+TEST(StepCommand, JointsThatAccelerateTogetherStayOnTheirLine) {
+  const auto skill = OfPanda();
+  const robot::JointVector home = skill->robot->home();
+  double farthest[2] = {0.0, 0.0};
+  for (const bool together : {false, true}) {
+    ArmCommand command = AtHome(*skill);
+    command.together = together;
+    ToolTarget target;
+    target.base_from_tool = robot::ForwardKinematics(skill->robot->arm, home);
+    target.base_from_tool.translation() += Vector3d(-0.1, 0.05, 0.12);
+    for (int step = 0; step < 3; ++step) StepCommand(*skill, target, command.sent, &command);
+    const robot::JointVector way = (command.goal - home).normalized();
+    const robot::JointVector moved = command.sent - home;
+    ASSERT_GT(moved.norm(), 1e-4);
+    farthest[together] = (moved - moved.dot(way) * way).norm() / moved.norm();
+  }
+  EXPECT_LT(farthest[true], 0.05);
+  EXPECT_GT(farthest[false], 2.0 * farthest[true]);
+}
+
 }  // namespace
 }  // namespace simwright::skills
