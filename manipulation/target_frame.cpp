@@ -28,8 +28,8 @@ constexpr double kHasFallen = 0.7;   // of an object's upward axis, upwards
 constexpr int kRestUpdates = 4;      // updates
 constexpr int kOpeningUpdates = 10;  // updates that the gripper waits to open
 constexpr int kStuckUpdates = 10;    // updates without progress; fingers open in 8
-// m ahead of the gripper on the line of its retreat: the arm moves straight in joint space, and on a
-// longer way fingers in a cup would leave the line and drag it along.
+// m ahead of the gripper on the line of its retreat: the arm moves straight in joint space, and on
+// a longer way fingers in a cup would leave the line and drag it along.
 constexpr double kRetreatLead = 0.06;
 constexpr int kLongestRetreat = 30;  // updates, 1.5 s at 20 Hz; an obstacle does not go away
 

@@ -439,8 +439,9 @@ StartState PlannedFrom(const Skill& skill, const StartState& from, core::Rng& rn
   start.retreat.setZero();
   start.waypoints.clear();
   if (start.held >= 0) {
-    const double lean = manipulation::PitchOf(variant.subtask.start.world_from_robot *
-                                              robot::ForwardKinematics(skill.robot->arm, start.arm));
+    const double lean =
+        manipulation::PitchOf(variant.subtask.start.world_from_robot *
+                              robot::ForwardKinematics(skill.robot->arm, start.arm));
     // A gripper keeps its lean, even if the object has rotated in the grasp: upright, it may not
     // fit into a receptacle, and an object that it took leaning would be set down tilted.
     if (variant.room || std::abs(lean) > kLeaning) start.pitch = lean;

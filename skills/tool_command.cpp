@@ -139,8 +139,8 @@ double CommonShare(const Skill& skill, const robot::JointVector& wanted,
   double share = 1.0;
   for (Eigen::Index j = 0; j < wanted.size(); ++j) {
     const auto index = static_cast<size_t>(skill.robot->arm_joints[static_cast<size_t>(j)]);
-    const double reached = Accelerated(command.rate[j], wanted[j], skill.robot->limits[index], dt,
-                                       command.pace);
+    const double reached =
+        Accelerated(command.rate[j], wanted[j], skill.robot->limits[index], dt, command.pace);
     const double missing = wanted[j] - command.rate[j];
     if (missing != 0.0) share = std::min(share, (reached - command.rate[j]) / missing);
   }
@@ -150,8 +150,7 @@ double CommonShare(const Skill& skill, const robot::JointVector& wanted,
 void MoveArm(const Skill& skill, const robot::JointVector& goal, const robot::JointVector& actual,
              ArmCommand* command) {
   const double dt = 1.0 / skill.options.control_rate, lead = skill.options.longest_lead;
-  robot::JointVector wanted =
-      WantedRate(skill, command->sent, goal - command->sent, command->pace);
+  robot::JointVector wanted = WantedRate(skill, command->sent, goal - command->sent, command->pace);
   if (command->together) {
     wanted = command->rate + CommonShare(skill, wanted, *command) * (wanted - command->rate);
   }

@@ -31,7 +31,7 @@ struct ArmCommand {
   double pace = 1.0;        // factor of the speed and acceleration limits
   // True: joints accelerate in proportion, so that the tool stays on its line from the start.
   bool together = false;
-  double leader = 0.0;      // position of the gripper's first joint
+  double leader = 0.0;  // position of the gripper's first joint
   double leader_rate = 0.0;
 };
 
