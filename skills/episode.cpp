@@ -108,9 +108,11 @@ void Episode::Replan() {
 }
 
 void Episode::Act(const ToolTarget& target) {
+  const SkillVariant& variant = skill_.variants[static_cast<size_t>(start_.variant)];
   for (int step = 0; step < skill_.options.control_steps; ++step) {
     if (step >= start_.delay) target_ = target;
-    command_.together = frame_->retreating() || frame_->at_destination();
+    command_.together =
+        frame_->retreating() || (frame_->at_destination() && variant.target->rim > 0.0);
     StepCommand(skill_, target_, arm_, &command_);
     world_->robot().Command(command_.sent, command_.leader);
     world_->Advance();
