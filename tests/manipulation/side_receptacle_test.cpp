@@ -238,11 +238,11 @@ TEST(SideReceptacle, TheFrameIsTheRefugeUntilTheHandIsThere) {
   const Vector3d displacement(0.0, 0.0, 0.1);
   const TargetFrame grasp_configuration(variant, state, Vector3d::UnitY(), 0.0);
   TargetFrame frame(variant, state, Vector3d::UnitY(), 0.0, displacement);
-  const Isometry3d refuge = Eigen::Translation3d(displacement) * state.gripper;
+  const Isometry3d next = Eigen::Translation3d(0.6 * displacement) * state.gripper;  // 6 cm ahead
   ASSERT_TRUE(frame.retreating());
   EXPECT_TRUE(frame.motion_direction().isZero());
   frame.Update(state);
-  EXPECT_TRUE(frame.world_from_target().isApprox(refuge, 1e-12));
+  EXPECT_TRUE(frame.world_from_target().isApprox(next, 1e-12));
   state.gripper.translation() += 0.85 * displacement;
   frame.Update(state);
   EXPECT_FALSE(frame.retreating());
@@ -364,7 +364,8 @@ TEST(SideReceptacle, AHandThatLeavesWaitsForItsFingers) {
       ++updates;
     }
     EXPECT_NEAR(updates, opens ? 5 : 11, 1) << opens;
-    EXPECT_LT((frame.world_from_target().translation() - here - displacement).norm(), 1e-9);
+    const Vector3d next = here + 0.6 * displacement;  // 6 cm ahead
+    EXPECT_LT((frame.world_from_target().translation() - next).norm(), 1e-9);
   }
 }
 
