@@ -11,7 +11,7 @@
 namespace simwright::tasks {
 namespace {
 
-constexpr int kAround = 36;  // directions about z: a round object is then 0.4 % wide of round
+constexpr int kAround = 36;  // directions about z: the width of a round object errs by 0.4 %
 
 // Returns 98 directions, the axes, the diagonals and those between them, and more about z.
 std::vector<Eigen::Vector3d> OutwardDirections() {

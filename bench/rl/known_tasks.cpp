@@ -29,7 +29,7 @@ Settings DefaultSettings() {
   settings.ppo.horizon = 128;
   settings.ppo.minibatch = 512;
   settings.ppo.hidden = {64, 64};
-  // As for the inverted pendulum.
+  // The values of bench_inverted_pendulum.
   settings.ppo.initial_std = 0.35;
   settings.ppo.target_kl = 0.02;
   return settings;

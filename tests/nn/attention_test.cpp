@@ -79,7 +79,7 @@ TEST(Attention, LeavesMaskedKeysOut) {
   EXPECT_LT(LargestDifference(Attention(q, k, v, mask)[2], single), 1e-6);
 }
 
-// As in a denoiser's block: a linear map in bfloat16, norms, attention.
+// The layers of a denoiser's block: a linear map in bfloat16, norms, attention.
 TEST(Attention, FollowsItsFormulaInMixedPrecision) {
   torch::manual_seed(6);
   torch::nn::Linear map(32, 96);
