@@ -50,7 +50,7 @@ double DistanceOffset(int attempt) {
   return share * (attempt % 2 == 0 ? kFarthestStart : -kNearest);
 }
 
-// Returns the first try in which a plan that is not clear is accepted. An arm that cannot get
+// Returns the first try in which a plan without a path is accepted. An arm that cannot get
 // behind an open door keeps opening it wider; if the furniture is farther away, there is a path.
 int FirstUnclearTry(const SkillVariant& variant) {
   return variant.target->pushes ? 2 * kTries / 3 : kTries / 3;
@@ -311,11 +311,11 @@ void PlanRetreatAndReach(const Skill& skill, const SkillVariant& variant, core::
 }
 
 // Samples poses for all objects and plans the manipulation there. Accepts poses with an unreachable
-// later skill only if there are no others.
+// later skill only if there are no others, and plans that are not clear only after those.
 void EpisodeStartPlaceObjects(const Skill& skill, core::Rng& rng, StartState* start) {
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
   const robot::JointVector home = skill.robot->home();
-  std::optional<StartState> second_best;
+  std::optional<StartState> second_best, unclear;
   const bool placed = !skill.options.placement_ranges.empty();
   for (int attempt = 0; attempt < kTries; attempt += placed ? kPlacedStep : 1) {
     start->state = variant.start;
@@ -326,17 +326,24 @@ void EpisodeStartPlaceObjects(const Skill& skill, core::Rng& rng, StartState* st
     if (!variant.target) return;
     const bool round = attempt >= kTries / 3;
     auto plan = manipulation::PlanReach(skill, variant, start->state, home, rng, {.round = round});
-    if (plan && !plan->IsReachable() && round) {
-      SearchPath(skill, variant, start->state, home, &*plan);
-    }
-    if (plan && (plan->IsReachable() || attempt >= FirstUnclearTry(variant))) {
+    if (plan && plan->IsReachable()) {
       ApplyPlan(skill, variant, *plan, start);
       if (IsDownstreamReachable(skill, start->variant, start->state, rng)) return;
       if (!second_best) second_best = *start;
+    } else if (plan && round && !unclear) {
+      SearchPath(skill, variant, start->state, home, &*plan);
+      if (plan->IsReachable() || attempt >= FirstUnclearTry(variant)) {
+        ApplyPlan(skill, variant, *plan, start);
+        unclear = *start;
+      }
     }
     start->state = variant.start;
   }
-  if (second_best) *start = *second_best;
+  if (second_best) {
+    *start = *second_best;
+  } else if (unclear) {
+    *start = *unclear;
+  }
 }
 
 // Moves the skill's joint to a random position in its range. Returns false, without moving it, if
