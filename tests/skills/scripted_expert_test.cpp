@@ -126,6 +126,29 @@ TEST(ScriptedHand, PutsACupDownAndLetsGo) {
   EXPECT_GE(EvaluateScriptedExpert(*skill, SampleStarts(*skill, 20, 5)).successes, 14);
 }
 
+// Wide cups are held by their rim, from which they hang; narrow ones between the fingers.
+TEST(ScriptedHand, AcceleratesItsJointsTogetherWithWhatHangsFromItsRim) {
+  for (const double radius : {0.03, 0.06}) {
+    SkillSubtask scene = PutDownCup();
+    scene.assets = PickUpCup("cup", radius).assets;
+    const auto skill = Evaluated(scene);
+    EXPECT_EQ(skill->variants.front().target->rim > 0.0, radius > 0.04);
+    Episode episode(*skill);
+    episode.Begin(SampleStarts(*skill, 1, 5).front());
+    std::vector<float> action(7);
+    int there = 0;
+    for (Decision decision; !decision.terminated && !decision.truncated;) {
+      ExpertAction(episode, action.data());
+      const bool at_destination = episode.frame().at_destination() && !episode.frame().retreating();
+      decision = episode.Step(action.data());
+      if (!at_destination) continue;
+      ++there;
+      EXPECT_EQ(episode.command().together, radius > 0.04);
+    }
+    EXPECT_GT(there, 5);
+  }
+}
+
 TEST(ScriptedHand, OpensADoor) {
   const auto skill = Evaluated(OpenDoor());
   EXPECT_GE(EvaluateScriptedExpert(*skill, SampleStarts(*skill, 20, 5)).successes, 10);
