@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/mesh.h"
+#include "geometry/point_lanes.h"
 #include "geometry/triangle_tree.h"
 
 namespace simwright::geometry {
@@ -58,7 +59,8 @@ class HullDeviation {
   core::TriangleMesh solid_;
   TriangleTree tree_;
   std::vector<Eigen::Vector3d> samples_;  // on the surface
-  std::vector<Eigen::Vector3d> outside_;  // in the AABB, outside the solid
+  PointLanes sample_lanes_;               // the same
+  PointLanes outside_;                    // in the AABB, outside the solid
   double sample_volume_ = 0.0;            // m^3, of each of outside_
   double unit_ = 1.0;
 };
