@@ -127,12 +127,16 @@ bool HullDeviation::Outside(const Vector3d& p) const {
   return !InsideSurface(solid_, tree_, p);
 }
 
-double HullDeviation::Overhang(const core::TriangleMesh& hull, int points, double enough) const {
-  double farthest = 0.0;
+double HullDeviation::Overhang(const core::TriangleMesh& hull, int points, double least,
+                               double enough) const {
+  double farthest = least;
+  int home = -1;
   VisitSurface(hull, points, [&](const Vector3d& p) {
     // Most points are nearer than the farthest so far, which is cheaper to test than their
     // distance.
-    if (!tree_.Within(p, farthest) && Outside(p)) farthest = tree_.Closest(p).distance;
+    if (!tree_.Within(p, farthest, &home) && Outside(p)) {
+      farthest = std::max(farthest, tree_.Closest(p).distance);
+    }
     return farthest <= enough;
   });
   return farthest;
@@ -145,7 +149,7 @@ double HullDeviation::Buried(const core::TriangleMesh& hull, const std::vector<V
 
 double HullDeviation::Distance(const core::TriangleMesh& hull) const {
   const double all = std::numeric_limits<double>::infinity();
-  return std::max(Buried(hull, FacePlanes(hull), all), Overhang(hull, kHullPoints, all));
+  return Overhang(hull, kHullPoints, Buried(hull, FacePlanes(hull), all), all);
 }
 
 double HullDeviation::Concavity(const core::TriangleMesh& hull, double volume,
@@ -162,7 +166,10 @@ double HullDeviation::Measure(const core::TriangleMesh& hull, double volume, dou
   // Few points show most of the hulls that are too concave.
   for (const int points : {kFewHullPoints, kHullPoints}) {
     if (concavity > enough) return concavity;
-    concavity = std::max(concavity, Overhang(hull, points, enough * unit_) / unit_);
+    // Points that are nearer to the solid than this do not change the rounded concavity.
+    const double least = std::max(concavity, std::min(0.1 * kConcavityStep, 0.5 * enough)) * unit_;
+    const double farthest = Overhang(hull, points, least, enough * unit_);
+    if (farthest > least) concavity = std::max(concavity, farthest / unit_);
   }
   if (concavity > enough) return concavity;
   const double excess = SignedVolume(hull) - volume;

@@ -48,7 +48,9 @@ class HullDeviation {
 
  private:
   double Measure(const core::TriangleMesh& hull, double volume, double enough) const;
-  double Overhang(const core::TriangleMesh& hull, int points, double enough) const;
+  // Returns the largest distance of a point on `hull` outside the solid to the solid, m, at least
+  // `least`. Stops at the first above `enough`.
+  double Overhang(const core::TriangleMesh& hull, int points, double least, double enough) const;
   // Both take the hull's face planes.
   double Buried(const core::TriangleMesh& hull, const std::vector<Eigen::Vector4d>& planes,
                 double enough) const;

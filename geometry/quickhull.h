@@ -92,12 +92,6 @@ class Quickhull {
   // than the tolerance. `needle` receives the middle point of a faulty thin triangle.
   Verdict Judge(int* needle) const {
     if (skipped_ > 4 * tolerance_) return Verdict::kFolded;
-    std::vector<int> corners;
-    for (const Face& face : faces_) {
-      if (face.alive) corners.insert(corners.end(), face.vertex.begin(), face.vertex.end());
-    }
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     bool folded = false;
     for (const Face& face : faces_) {
       if (!face.alive) continue;
@@ -106,17 +100,14 @@ class Quickhull {
       bool good = height > kThinnest * diagonal_ && face.Height(inside_) < -tolerance_;
       // A thin face's plane says little about its neighbourhood: test it against all corners.
       if (height < kThin * diagonal_) {
-        for (const int v : corners) good = good && face.Height(points_[v]) <= 8 * tolerance_;
-        if (!good) {
+        if (!good || !Supports(face)) {
           *needle = face.vertex[apex];
           return Verdict::kNeedle;
         }
         continue;
       }
-      for (const int n : face.neighbour) {
-        for (const int v : faces_[n].vertex) {
-          good = good && face.Height(points_[v]) <= 8 * tolerance_;
-        }
+      for (int k = 0; k < 3; ++k) {
+        good = good && face.Height(points_[Opposite(face, k)]) <= 8 * tolerance_;
       }
       folded = folded || !good;
     }
@@ -153,6 +144,25 @@ class Quickhull {
       *apex = k;
     }
     return longest;
+  }
+
+  // Returns the corner of the neighbour across the edge `k` that is not on it.
+  int Opposite(const Face& face, int k) const {
+    const Face& other = faces_[face.neighbour[k]];
+    int at = 0;
+    while (other.vertex[at] == face.vertex[k] || other.vertex[at] == face.vertex[(k + 1) % 3]) ++at;
+    return other.vertex[at];
+  }
+
+  // Returns true if no corner of the hull is above the face.
+  bool Supports(const Face& face) const {
+    for (const Face& other : faces_) {
+      if (!other.alive) continue;
+      for (const int v : other.vertex) {
+        if (face.Height(points_[v]) > 8 * tolerance_) return false;
+      }
+    }
+    return true;
   }
 
   bool FirstTetrahedron(std::array<int, 4>* corner) const {

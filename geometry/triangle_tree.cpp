@@ -257,13 +257,25 @@ SIMWRIGHT_WIDEST_VECTORS SurfacePoint TriangleTree::Closest(const Vector3d& p, d
   return best;
 }
 
-SIMWRIGHT_WIDEST_VECTORS bool TriangleTree::Within(const Vector3d& p, double reach) const {
+bool TriangleTree::Within(const Vector3d& p, double reach) const {
+  int home = -1;
+  return Within(p, reach, &home);
+}
+
+SIMWRIGHT_WIDEST_VECTORS bool TriangleTree::Within(const Vector3d& p, double reach,
+                                                   int* home) const {
   const double reach_squared = reach * reach;
   bool within = false;
-  const auto test = [&](const Leaf&, const double* squared) __attribute__((always_inline)) {
+  const auto test = [&](const Leaf& leaf, const double* squared) __attribute__((always_inline)) {
     for (int i = 0; i < kWidth; ++i) within |= squared[i] <= reach_squared;
+    if (within) *home = static_cast<int>(&leaf - leaves_.data());
     return !within;
   };
+  if (*home >= 0) {
+    double squared[kWidth];
+    SquaredDistances(leaves_[*home].triangles, p, squared);
+    if (!test(leaves_[*home], squared)) return true;
+  }
   VisitNear(p, reach_squared, test);
   return within;
 }

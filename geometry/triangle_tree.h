@@ -50,6 +50,10 @@ class TriangleTree {
   // first.
   bool Within(const Eigen::Vector3d& p, double reach) const;
 
+  // The same for points that follow each other closely: `home` (-1 at first) keeps the leaf that
+  // was within reach of the last one, which is tested first.
+  bool Within(const Eigen::Vector3d& p, double reach, int* home) const;
+
   // Returns the first hit of origin + t * direction with t in [0, reach]; distance is t.
   std::optional<SurfacePoint> FirstHit(
       const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
