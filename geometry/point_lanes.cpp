@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/lanes.h"
+
 namespace simwright::geometry {
 namespace {
 
@@ -10,6 +12,7 @@ using core::kLanes;
 using core::Lanes;
 using Eigen::Vector3d;
 using Eigen::Vector4d;
+using Rows = std::array<std::vector<double>, 3>;
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
@@ -21,6 +24,71 @@ __attribute__((always_inline)) inline const Lanes& RowAt(const std::vector<doubl
 template <typename Mask>
 __attribute__((always_inline)) inline bool Any(const Mask& mask) {
   return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+}
+
+SIMWRIGHT_WIDEST_VECTORS double SupportOf(const Rows& rows, int size, const Vector3d& normal) {
+  Lanes highest = {};
+  highest -= kNoBound;
+  for (int i = 0; i < size; i += kLanes) {
+    const Lanes height = normal.x() * RowAt(rows[0], i) + normal.y() * RowAt(rows[1], i) +
+                         normal.z() * RowAt(rows[2], i);
+    highest = height > highest ? height : highest;
+  }
+  return std::max({highest[0], highest[1], highest[2], highest[3]});
+}
+
+SIMWRIGHT_WIDEST_VECTORS void KeepWithin(const Rows& rows, int size, const Eigen::AlignedBox3d& box,
+                                         Rows* inside) {
+  const Vector3d low = box.min(), high = box.max();
+  for (std::vector<double>& row : *inside) row.reserve(static_cast<std::size_t>(size + kLanes));
+  for (int i = 0; i < size; i += kLanes) {
+    auto mask = RowAt(rows[0], i) >= low[0];
+    mask &= RowAt(rows[0], i) <= high[0];
+    for (int k = 1; k < 3; ++k) {
+      mask &= RowAt(rows[k], i) >= low[k];
+      mask &= RowAt(rows[k], i) <= high[k];
+    }
+    if (!Any(mask)) continue;
+    for (int j = i; j < std::min(i + kLanes, size); ++j) {
+      if (mask[j - i] == 0) continue;
+      for (int k = 0; k < 3; ++k) (*inside)[k].push_back(rows[k][j]);
+    }
+  }
+}
+
+SIMWRIGHT_WIDEST_VECTORS double DepthOf(const Rows& rows, int size,
+                                        const std::vector<Vector4d>& planes, double enough) {
+  double deepest = 0.0;
+  for (int i = 0; i < size; i += kLanes) {
+    const Lanes x = RowAt(rows[0], i), y = RowAt(rows[1], i), z = RowAt(rows[2], i);
+    Lanes depth = {};
+    depth += kNoBound;
+    for (const Vector4d& plane : planes) {
+      const Lanes below = plane[3] - (plane[0] * x + plane[1] * y + plane[2] * z);
+      depth = below < depth ? below : depth;
+      if (!Any(depth > deepest)) break;
+    }
+    for (int k = 0; k < kLanes; ++k) {
+      deepest = std::max(deepest, depth[k]);
+      if (deepest > enough) return deepest;
+    }
+  }
+  return deepest;
+}
+
+SIMWRIGHT_WIDEST_VECTORS int PointsBelow(const Rows& rows, int size,
+                                         const std::vector<Vector4d>& planes) {
+  int count = 0;
+  for (int i = 0; i < size; i += kLanes) {
+    const Lanes x = RowAt(rows[0], i), y = RowAt(rows[1], i), z = RowAt(rows[2], i);
+    auto below = x == x;
+    for (const Vector4d& plane : planes) {
+      below &= plane[0] * x + plane[1] * y + plane[2] * z < plane[3];
+      if (!Any(below)) break;
+    }
+    for (int k = 0; k < std::min(kLanes, size - i); ++k) count += below[k] != 0;
+  }
+  return count;
 }
 
 }  // namespace
@@ -40,70 +108,24 @@ void PointLanes::FillUp() {
   }
 }
 
-SIMWRIGHT_WIDEST_VECTORS double PointLanes::Support(const Vector3d& normal) const {
-  Lanes highest = {};
-  highest -= kNoBound;
-  for (int i = 0; i < size_; i += kLanes) {
-    const Lanes height = normal.x() * RowAt(rows_[0], i) + normal.y() * RowAt(rows_[1], i) +
-                         normal.z() * RowAt(rows_[2], i);
-    highest = height > highest ? height : highest;
-  }
-  return std::max({highest[0], highest[1], highest[2], highest[3]});
+double PointLanes::Support(const Vector3d& normal) const {
+  return SupportOf(rows_, size_, normal);
 }
 
-SIMWRIGHT_WIDEST_VECTORS PointLanes PointLanes::Within(const Eigen::AlignedBox3d& box) const {
+PointLanes PointLanes::Within(const Eigen::AlignedBox3d& box) const {
   PointLanes inside;
-  const Vector3d low = box.min(), high = box.max();
-  for (int i = 0; i < size_; i += kLanes) {
-    auto mask = RowAt(rows_[0], i) >= low[0];
-    mask &= RowAt(rows_[0], i) <= high[0];
-    for (int k = 1; k < 3; ++k) {
-      mask &= RowAt(rows_[k], i) >= low[k];
-      mask &= RowAt(rows_[k], i) <= high[k];
-    }
-    if (!Any(mask)) continue;
-    for (int j = i; j < std::min(i + kLanes, size_); ++j) {
-      if (mask[j - i] == 0) continue;
-      for (int k = 0; k < 3; ++k) inside.rows_[k].push_back(rows_[k][j]);
-    }
-  }
+  KeepWithin(rows_, size_, box, &inside.rows_);
   inside.size_ = static_cast<int>(inside.rows_[0].size());
   inside.FillUp();
   return inside;
 }
 
-SIMWRIGHT_WIDEST_VECTORS double PointLanes::Depth(const std::vector<Vector4d>& planes,
-                                                  double enough) const {
-  double deepest = 0.0;
-  for (int i = 0; i < size_; i += kLanes) {
-    const Lanes x = RowAt(rows_[0], i), y = RowAt(rows_[1], i), z = RowAt(rows_[2], i);
-    Lanes depth = {};
-    depth += kNoBound;
-    for (const Vector4d& plane : planes) {
-      const Lanes below = plane[3] - (plane[0] * x + plane[1] * y + plane[2] * z);
-      depth = below < depth ? below : depth;
-      if (!Any(depth > deepest)) break;
-    }
-    for (int k = 0; k < kLanes; ++k) {
-      deepest = std::max(deepest, depth[k]);
-      if (deepest > enough) return deepest;
-    }
-  }
-  return deepest;
+double PointLanes::Depth(const std::vector<Vector4d>& planes, double enough) const {
+  return DepthOf(rows_, size_, planes, enough);
 }
 
-SIMWRIGHT_WIDEST_VECTORS int PointLanes::CountBelow(const std::vector<Vector4d>& planes) const {
-  int count = 0;
-  for (int i = 0; i < size_; i += kLanes) {
-    const Lanes x = RowAt(rows_[0], i), y = RowAt(rows_[1], i), z = RowAt(rows_[2], i);
-    auto below = x == x;
-    for (const Vector4d& plane : planes) {
-      below &= plane[0] * x + plane[1] * y + plane[2] * z < plane[3];
-      if (!Any(below)) break;
-    }
-    for (int k = 0; k < std::min(kLanes, size_ - i); ++k) count += below[k] != 0;
-  }
-  return count;
+int PointLanes::CountBelow(const std::vector<Vector4d>& planes) const {
+  return PointsBelow(rows_, size_, planes);
 }
 
 }  // namespace simwright::geometry

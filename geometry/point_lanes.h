@@ -1,11 +1,10 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-
-#include "core/lanes.h"
 
 namespace simwright::geometry {
 
@@ -35,7 +34,7 @@ class PointLanes {
  private:
   void FillUp();
 
-  std::vector<double> rows_[3];
+  std::array<std::vector<double>, 3> rows_;
   int size_ = 0;
 };
 

@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "core/lanes.h"
 #include "core/mesh.h"
 
 namespace simwright::geometry {
@@ -140,9 +139,10 @@ class Quickhull {
   double LongestEdge(const Face& face, int* apex) const {
     double longest = 0.0;
     for (int k = 0; k < 3; ++k) {
-      const Vector3d edge = points_[face.vertex[(k + 1) % 3]] - points_[face.vertex[(k + 2) % 3]];
-      if (edge.norm() <= longest) continue;
-      longest = edge.norm();
+      const double length =
+          (points_[face.vertex[(k + 1) % 3]] - points_[face.vertex[(k + 2) % 3]]).norm();
+      if (length <= longest) continue;
+      longest = length;
       *apex = k;
     }
     return longest;

@@ -141,6 +141,132 @@ Vector3d ClosestPointOnTriangle(const Vector3d& p, const Vector3d& a, const Vect
   return a + (vb / sum) * ab + (vc / sum) * ac;
 }
 
+namespace {
+
+// Visits leaves that may be within reach, nearer AABBs first: visit(leaf, squared distances of its
+// triangles), until it returns false. The visitor may shorten the reach.
+template <typename Visit>
+__attribute__((always_inline)) inline void VisitNear(const std::vector<TreeNode>& nodes,
+                                                     const std::vector<TreeLeaf>& leaves,
+                                                     const Vector3d& p, const double& reach_squared,
+                                                     Visit visit) {
+  if (nodes.empty()) return;
+  Queue queue;
+  queue.Push(0, 0.0);
+  double squared[kWidth];
+  while (!queue.empty()) {
+    const auto [child, bound] = queue.Pop();
+    if (bound > reach_squared) continue;
+    if (child < 0) {
+      const TreeLeaf& leaf = leaves[~child];
+      SquaredDistances(leaf.triangles, p, squared);
+      if (!visit(leaf, squared)) return;
+      continue;
+    }
+    const TreeNode& node = nodes[child];
+    SquaredDistances(node.boxes, p, squared);
+    queue.Open();
+    for (int i = 0; i < node.count; ++i) {
+      if (squared[i] <= reach_squared) queue.Push(node.child[i], squared[i]);
+    }
+  }
+}
+
+SIMWRIGHT_WIDEST_VECTORS SurfacePoint ClosestPoint(const std::vector<TreeNode>& nodes,
+                                                   const std::vector<TreeLeaf>& leaves,
+                                                   const Vector3d& p, double reach) {
+  SurfacePoint best;
+  double best_squared = reach * reach;
+  const TreeLeaf* home = nullptr;
+  int place = 0;
+  const auto take = [&](const TreeLeaf& leaf, const double* squared)
+      __attribute__((always_inline)) {
+    for (int i = 0; i < kWidth; ++i) {
+      if (squared[i] < best_squared ||
+          (squared[i] == best_squared && (best.triangle < 0 || leaf.index[i] < best.triangle))) {
+        best_squared = squared[i];
+        best.triangle = leaf.index[i];
+        home = &leaf;
+        place = i;
+      }
+    }
+    return true;
+  };
+  VisitNear(nodes, leaves, p, best_squared, take);
+  if (!home) return best;
+  const auto corner = [&](const double(&rows)[3][kWidth]) {
+    return Vector3d(rows[0][place], rows[1][place], rows[2][place]);
+  };
+  const TriangleLanes& triangles = home->triangles;
+  best.point =
+      ClosestPointOnTriangle(p, corner(triangles.a), corner(triangles.b), corner(triangles.c));
+  best.distance = std::sqrt(best_squared);
+  return best;
+}
+
+SIMWRIGHT_WIDEST_VECTORS bool IsWithin(const std::vector<TreeNode>& nodes,
+                                       const std::vector<TreeLeaf>& leaves, const Vector3d& p,
+                                       double reach, int* home) {
+  const double reach_squared = reach * reach;
+  bool within = false;
+  const auto test = [&](const TreeLeaf& leaf, const double* squared)
+      __attribute__((always_inline)) {
+    for (int i = 0; i < kWidth; ++i) within |= squared[i] <= reach_squared;
+    if (within) *home = static_cast<int>(&leaf - leaves.data());
+    return !within;
+  };
+  if (*home >= 0) {
+    double squared[kWidth];
+    SquaredDistances(leaves[*home].triangles, p, squared);
+    if (!test(leaves[*home], squared)) return true;
+  }
+  VisitNear(nodes, leaves, p, reach_squared, test);
+  return within;
+}
+
+// Returns triangle -1 if nothing is hit.
+SIMWRIGHT_WIDEST_VECTORS SurfacePoint NearestHit(const std::vector<TreeNode>& nodes,
+                                                 const std::vector<TreeLeaf>& leaves,
+                                                 const Vector3d& origin, const Vector3d& direction,
+                                                 double reach) {
+  SurfacePoint best;
+  if (nodes.empty()) return best;
+  const Vector3d inverse = direction.cwiseInverse();
+  double limit = reach;
+  double at[kWidth];
+  Queue queue;
+  queue.Push(0, 0.0);
+  while (!queue.empty()) {
+    const auto [child, entry] = queue.Pop();
+    if (entry > limit) continue;
+    if (child < 0) {
+      const TreeLeaf& leaf = leaves[~child];
+      Hits(leaf.triangles, origin, direction, at);
+      for (int i = 0; i < kWidth; ++i) {
+        if (std::isinf(at[i])) continue;
+        if (at[i] < limit ||
+            (at[i] == limit && (best.triangle < 0 || leaf.index[i] < best.triangle))) {
+          limit = at[i];
+          best.triangle = leaf.index[i];
+        }
+      }
+      continue;
+    }
+    const TreeNode& node = nodes[child];
+    Entries(node.boxes, origin, inverse, limit, at);
+    queue.Open();
+    for (int i = 0; i < node.count; ++i) {
+      if (!std::isinf(at[i])) queue.Push(node.child[i], at[i]);
+    }
+  }
+  if (best.triangle < 0) return best;
+  best.distance = limit;
+  best.point = origin + limit * direction;
+  return best;
+}
+
+}  // namespace
+
 TriangleTree::TriangleTree(const core::TriangleMesh& mesh) {
   core::RequireValid(mesh, "triangle tree");
   const int count = static_cast<int>(mesh.triangles.size());
@@ -156,7 +282,7 @@ void TriangleTree::Build(const core::TriangleMesh& mesh) {
   const double rounding = kBoxRounding * std::max(bounds.min().cwiseAbs().maxCoeff(),
                                                   bounds.max().cwiseAbs().maxCoeff());
   const auto add_leaf = [&](const Splitting::Range& range) {
-    Leaf leaf;
+    TreeLeaf leaf;
     for (int i = 0; i < kWidth; ++i) {
       leaf.index[i] = i < range.count ? splitting.At(range.first + i) : -1;
       for (int k = 0; k < 3; ++k) {
@@ -181,7 +307,7 @@ void TriangleTree::Build(const core::TriangleMesh& mesh) {
     tasks.pop_back();
     const int index = static_cast<int>(nodes_.size());
     if (task.parent >= 0) nodes_[task.parent].child[task.child] = index;
-    Node node;
+    TreeNode node;
     for (const Splitting::Range& range : splitting.Parts(task.range)) {
       const Eigen::AlignedBox3d box = splitting.BoxOf(range);
       for (int k = 0; k < 3; ++k) {
@@ -202,59 +328,8 @@ void TriangleTree::Build(const core::TriangleMesh& mesh) {
   }
 }
 
-template <typename Visit>
-__attribute__((always_inline)) inline void TriangleTree::VisitNear(const Vector3d& p,
-                                                                   const double& reach_squared,
-                                                                   Visit visit) const {
-  if (nodes_.empty()) return;
-  Queue queue;
-  queue.Push(0, 0.0);
-  double squared[kWidth];
-  while (!queue.empty()) {
-    const auto [child, bound] = queue.Pop();
-    if (bound > reach_squared) continue;
-    if (child < 0) {
-      const Leaf& leaf = leaves_[~child];
-      SquaredDistances(leaf.triangles, p, squared);
-      if (!visit(leaf, squared)) return;
-      continue;
-    }
-    const Node& node = nodes_[child];
-    SquaredDistances(node.boxes, p, squared);
-    queue.Open();
-    for (int i = 0; i < node.count; ++i) {
-      if (squared[i] <= reach_squared) queue.Push(node.child[i], squared[i]);
-    }
-  }
-}
-
-SIMWRIGHT_WIDEST_VECTORS SurfacePoint TriangleTree::Closest(const Vector3d& p, double reach) const {
-  SurfacePoint best;
-  double best_squared = reach * reach;
-  const Leaf* home = nullptr;
-  int place = 0;
-  const auto take = [&](const Leaf& leaf, const double* squared) __attribute__((always_inline)) {
-    for (int i = 0; i < kWidth; ++i) {
-      if (squared[i] < best_squared ||
-          (squared[i] == best_squared && (best.triangle < 0 || leaf.index[i] < best.triangle))) {
-        best_squared = squared[i];
-        best.triangle = leaf.index[i];
-        home = &leaf;
-        place = i;
-      }
-    }
-    return true;
-  };
-  VisitNear(p, best_squared, take);
-  if (!home) return best;
-  const auto corner = [&](const double(&rows)[3][kWidth]) {
-    return Vector3d(rows[0][place], rows[1][place], rows[2][place]);
-  };
-  const TriangleLanes& triangles = home->triangles;
-  best.point =
-      ClosestPointOnTriangle(p, corner(triangles.a), corner(triangles.b), corner(triangles.c));
-  best.distance = std::sqrt(best_squared);
-  return best;
+SurfacePoint TriangleTree::Closest(const Vector3d& p, double reach) const {
+  return ClosestPoint(nodes_, leaves_, p, reach);
 }
 
 bool TriangleTree::Within(const Vector3d& p, double reach) const {
@@ -262,60 +337,15 @@ bool TriangleTree::Within(const Vector3d& p, double reach) const {
   return Within(p, reach, &home);
 }
 
-SIMWRIGHT_WIDEST_VECTORS bool TriangleTree::Within(const Vector3d& p, double reach,
-                                                   int* home) const {
-  const double reach_squared = reach * reach;
-  bool within = false;
-  const auto test = [&](const Leaf& leaf, const double* squared) __attribute__((always_inline)) {
-    for (int i = 0; i < kWidth; ++i) within |= squared[i] <= reach_squared;
-    if (within) *home = static_cast<int>(&leaf - leaves_.data());
-    return !within;
-  };
-  if (*home >= 0) {
-    double squared[kWidth];
-    SquaredDistances(leaves_[*home].triangles, p, squared);
-    if (!test(leaves_[*home], squared)) return true;
-  }
-  VisitNear(p, reach_squared, test);
-  return within;
+bool TriangleTree::Within(const Vector3d& p, double reach, int* home) const {
+  return IsWithin(nodes_, leaves_, p, reach, home);
 }
 
-SIMWRIGHT_WIDEST_VECTORS std::optional<SurfacePoint> TriangleTree::FirstHit(
-    const Vector3d& origin, const Vector3d& direction, double reach) const {
-  if (nodes_.empty()) return std::nullopt;
-  const Vector3d inverse = direction.cwiseInverse();
-  SurfacePoint best;
-  double limit = reach;
-  double at[kWidth];
-  Queue queue;
-  queue.Push(0, 0.0);
-  while (!queue.empty()) {
-    const auto [child, entry] = queue.Pop();
-    if (entry > limit) continue;
-    if (child < 0) {
-      const Leaf& leaf = leaves_[~child];
-      Hits(leaf.triangles, origin, direction, at);
-      for (int i = 0; i < kWidth; ++i) {
-        if (std::isinf(at[i])) continue;
-        if (at[i] < limit ||
-            (at[i] == limit && (best.triangle < 0 || leaf.index[i] < best.triangle))) {
-          limit = at[i];
-          best.triangle = leaf.index[i];
-        }
-      }
-      continue;
-    }
-    const Node& node = nodes_[child];
-    Entries(node.boxes, origin, inverse, limit, at);
-    queue.Open();
-    for (int i = 0; i < node.count; ++i) {
-      if (!std::isinf(at[i])) queue.Push(node.child[i], at[i]);
-    }
-  }
-  if (best.triangle < 0) return std::nullopt;
-  best.distance = limit;
-  best.point = origin + limit * direction;
-  return best;
+std::optional<SurfacePoint> TriangleTree::FirstHit(const Vector3d& origin,
+                                                   const Vector3d& direction, double reach) const {
+  const SurfacePoint hit = NearestHit(nodes_, leaves_, origin, direction, reach);
+  if (hit.triangle < 0) return std::nullopt;
+  return hit;
 }
 
 bool TriangleTree::SegmentMeets(const Vector3d& from, const Vector3d& to) const {
@@ -331,7 +361,7 @@ void TriangleTree::Overlapping(const Eigen::AlignedBox3d& box, std::vector<int>*
   while (top > 0) {
     const int child = waiting[--top];
     if (child < 0) {
-      const Leaf& leaf = leaves_[~child];
+      const TreeLeaf& leaf = leaves_[~child];
       for (int i = 0; i < kWidth && leaf.index[i] >= 0; ++i) {
         bool overlaps = true;
         for (int k = 0; k < 3; ++k) {
@@ -343,7 +373,7 @@ void TriangleTree::Overlapping(const Eigen::AlignedBox3d& box, std::vector<int>*
       }
       continue;
     }
-    const Node& node = nodes_[child];
+    const TreeNode& node = nodes_[child];
     for (int i = 0; i < node.count; ++i) {
       bool overlaps = true;
       for (int k = 0; k < 3; ++k) {

@@ -33,6 +33,17 @@ struct BoxLanes {
   double low[3][core::kLanes], high[3][core::kLanes];
 };
 
+struct TreeNode {
+  BoxLanes boxes;           // of the children, enlarged by the rounding of what is computed inside
+  int child[core::kLanes];  // >= 0: a node; otherwise ~child is a leaf
+  int count = 0;            // children
+};
+
+struct TreeLeaf {
+  TriangleLanes triangles;
+  int index[core::kLanes];  // of the triangles in the mesh, or -1
+};
+
 // A bounding volume hierarchy over the triangles of one mesh, for closest points, first hits and
 // overlap: four boxes to a node and up to four triangles to a leaf, each tested at once. Queries
 // are const and thread-safe.
@@ -71,25 +82,11 @@ class TriangleTree {
   int size() const { return static_cast<int>(normals_.size()); }
 
  private:
-  struct Node {
-    BoxLanes boxes;  // of the children, enlarged by the rounding of what is computed inside
-    int child[core::kLanes];  // >= 0: a node; otherwise ~child is a leaf
-    int count = 0;            // children
-  };
-  struct Leaf {
-    TriangleLanes triangles;
-    int index[core::kLanes];  // of the triangles in the mesh, or -1
-  };
-
   void Build(const core::TriangleMesh& mesh);
-  // Visits leaves that may be within reach, nearer AABBs first: visit(leaf, squared distances of
-  // its triangles), until it returns false. The visitor may shorten the reach.
-  template <typename Visit>
-  void VisitNear(const Eigen::Vector3d& p, const double& reach_squared, Visit visit) const;
 
   std::vector<Eigen::Vector3d> normals_;  // (M x 3)
-  std::vector<Node> nodes_;               // the root is the first
-  std::vector<Leaf> leaves_;
+  std::vector<TreeNode> nodes_;           // the root is the first
+  std::vector<TreeLeaf> leaves_;
 };
 
 }  // namespace simwright::geometry
