@@ -16,8 +16,16 @@ using Rows = std::array<std::vector<double>, 3>;
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
-__attribute__((always_inline)) inline const Lanes& RowAt(const std::vector<double>& row, int i) {
-  return *reinterpret_cast<const Lanes*>(row.data() + i);
+struct FourPoints {
+  Lanes x, y, z;
+};
+
+__attribute__((always_inline)) inline FourPoints PointsAt(const Rows& rows, int i) {
+  FourPoints points;
+  core::LoadLanes(rows[0].data() + i, &points.x);
+  core::LoadLanes(rows[1].data() + i, &points.y);
+  core::LoadLanes(rows[2].data() + i, &points.z);
+  return points;
 }
 
 // Returns true if any lane of a comparison is.
@@ -30,8 +38,8 @@ SIMWRIGHT_WIDEST_VECTORS double SupportOf(const Rows& rows, int size, const Vect
   Lanes highest = {};
   highest -= kNoBound;
   for (int i = 0; i < size; i += kLanes) {
-    const Lanes height = normal.x() * RowAt(rows[0], i) + normal.y() * RowAt(rows[1], i) +
-                         normal.z() * RowAt(rows[2], i);
+    const FourPoints p = PointsAt(rows, i);
+    const Lanes height = normal.x() * p.x + normal.y() * p.y + normal.z() * p.z;
     highest = height > highest ? height : highest;
   }
   return std::max({highest[0], highest[1], highest[2], highest[3]});
@@ -42,12 +50,9 @@ SIMWRIGHT_WIDEST_VECTORS void KeepWithin(const Rows& rows, int size, const Eigen
   const Vector3d low = box.min(), high = box.max();
   for (std::vector<double>& row : *inside) row.reserve(static_cast<std::size_t>(size + kLanes));
   for (int i = 0; i < size; i += kLanes) {
-    auto mask = RowAt(rows[0], i) >= low[0];
-    mask &= RowAt(rows[0], i) <= high[0];
-    for (int k = 1; k < 3; ++k) {
-      mask &= RowAt(rows[k], i) >= low[k];
-      mask &= RowAt(rows[k], i) <= high[k];
-    }
+    const FourPoints p = PointsAt(rows, i);
+    const auto mask = (p.x >= low[0]) & (p.x <= high[0]) & (p.y >= low[1]) & (p.y <= high[1]) &
+                      (p.z >= low[2]) & (p.z <= high[2]);
     if (!Any(mask)) continue;
     for (int j = i; j < std::min(i + kLanes, size); ++j) {
       if (mask[j - i] == 0) continue;
@@ -60,11 +65,11 @@ SIMWRIGHT_WIDEST_VECTORS double DepthOf(const Rows& rows, int size,
                                         const std::vector<Vector4d>& planes, double enough) {
   double deepest = 0.0;
   for (int i = 0; i < size; i += kLanes) {
-    const Lanes x = RowAt(rows[0], i), y = RowAt(rows[1], i), z = RowAt(rows[2], i);
+    const FourPoints p = PointsAt(rows, i);
     Lanes depth = {};
     depth += kNoBound;
     for (const Vector4d& plane : planes) {
-      const Lanes below = plane[3] - (plane[0] * x + plane[1] * y + plane[2] * z);
+      const Lanes below = plane[3] - (plane[0] * p.x + plane[1] * p.y + plane[2] * p.z);
       depth = below < depth ? below : depth;
       if (!Any(depth > deepest)) break;
     }
@@ -80,10 +85,10 @@ SIMWRIGHT_WIDEST_VECTORS int PointsBelow(const Rows& rows, int size,
                                          const std::vector<Vector4d>& planes) {
   int count = 0;
   for (int i = 0; i < size; i += kLanes) {
-    const Lanes x = RowAt(rows[0], i), y = RowAt(rows[1], i), z = RowAt(rows[2], i);
-    auto below = x == x;
+    const FourPoints p = PointsAt(rows, i);
+    auto below = p.x == p.x;
     for (const Vector4d& plane : planes) {
-      below &= plane[0] * x + plane[1] * y + plane[2] * z < plane[3];
+      below &= plane[0] * p.x + plane[1] * p.y + plane[2] * p.z < plane[3];
       if (!Any(below)) break;
     }
     for (int k = 0; k < std::min(kLanes, size - i); ++k) count += below[k] != 0;

@@ -16,11 +16,11 @@ using Eigen::Vector3d;
 // coordinates of their normals and of their offsets.
 SIMWRIGHT_WIDEST_VECTORS int HighestAbove(const double* packed, int groups, const Vector3d& p,
                                           double tolerance, double* height) {
-  const Lanes* rows = reinterpret_cast<const Lanes*>(packed);
   const Lanes zero = {};
   Lanes highest = zero + tolerance, group = zero - 1.0;
   for (int g = 0; g < groups; ++g) {
-    const Lanes* row = rows + 4 * g;
+    Lanes row[4];
+    for (int k = 0; k < 4; ++k) core::LoadLanes(packed + (4 * g + k) * kLanes, &row[k]);
     const Lanes here = row[0] * p.x() + row[1] * p.y() + row[2] * p.z() - row[3];
     const auto above = here > highest;
     highest = above ? here : highest;

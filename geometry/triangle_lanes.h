@@ -17,16 +17,12 @@ struct LaneVector {
   core::Lanes x, y, z;
 };
 
-SIMWRIGHT_INLINE const core::Lanes& LanesAt(const double* numbers) {
-  return *reinterpret_cast<const core::Lanes*>(numbers);
-}
-
-SIMWRIGHT_INLINE void StoreLanes(const core::Lanes& from, double* to) {
-  *reinterpret_cast<core::Lanes*>(to) = from;
-}
-
 SIMWRIGHT_INLINE LaneVector LaneVectorAt(const double (&rows)[3][core::kLanes]) {
-  return {LanesAt(rows[0]), LanesAt(rows[1]), LanesAt(rows[2])};
+  LaneVector lanes;
+  core::LoadLanes(rows[0], &lanes.x);
+  core::LoadLanes(rows[1], &lanes.y);
+  core::LoadLanes(rows[2], &lanes.z);
+  return lanes;
 }
 
 SIMWRIGHT_INLINE LaneVector Minus(const LaneVector& a, const LaneVector& b) {
@@ -94,7 +90,7 @@ SIMWRIGHT_INLINE void SquaredDistances(const TriangleLanes& triangles, const Eig
                             base.z + share * side.z + share_c * ac.z - p.z()};
   Lanes sum_of_squares;
   Dot(apart, apart, &sum_of_squares);
-  StoreLanes(sum_of_squares, squared);
+  core::StoreLanes(sum_of_squares, squared);
 }
 
 // Sets the ray parameters t >= 0 at which origin + t * direction meets the four triangles, from
@@ -123,7 +119,7 @@ SIMWRIGHT_INLINE void Hits(const TriangleLanes& triangles, const Eigen::Vector3d
   const Lanes never = zero + std::numeric_limits<double>::infinity();
   const auto hit = (determinant != 0.0) & (u >= -kSlack) & (u <= 1.0 + kSlack) & (v >= -kSlack) &
                    (u + v <= 1.0 + kSlack) & (at >= 0.0);
-  StoreLanes(hit ? at : never, t);
+  core::StoreLanes(hit ? at : never, t);
 }
 
 // Sets the squared distances of `p` to the four AABBs, m^2.
@@ -133,13 +129,15 @@ SIMWRIGHT_INLINE void SquaredDistances(const BoxLanes& boxes, const Eigen::Vecto
   Lanes sum = {};
   const Lanes zero = {};
   for (int k = 0; k < 3; ++k) {
-    const Lanes below = LanesAt(boxes.low[k]) - p[k];
-    const Lanes above = p[k] - LanesAt(boxes.high[k]);
+    Lanes low, high;
+    core::LoadLanes(boxes.low[k], &low);
+    core::LoadLanes(boxes.high[k], &high);
+    const Lanes below = low - p[k], above = p[k] - high;
     const Lanes farther = below > above ? below : above;
     const Lanes outside = farther > 0.0 ? farther : zero;
     sum += outside * outside;
   }
-  StoreLanes(sum, squared);
+  core::StoreLanes(sum, squared);
 }
 
 // Sets the ray parameters in [0, reach] at which a ray enters the four AABBs; infinity where it
@@ -152,14 +150,17 @@ SIMWRIGHT_INLINE void Entries(const BoxLanes& boxes, const Eigen::Vector3d& orig
   Lanes enter = zero, leave = zero + reach;
   for (int k = 0; k < 3; ++k) {
     const bool backwards = inverse[k] < 0.0;
-    const Lanes near = (LanesAt((backwards ? boxes.high : boxes.low)[k]) - origin[k]) * inverse[k];
-    const Lanes far = (LanesAt((backwards ? boxes.low : boxes.high)[k]) - origin[k]) * inverse[k];
+    Lanes near, far;
+    core::LoadLanes((backwards ? boxes.high : boxes.low)[k], &near);
+    core::LoadLanes((backwards ? boxes.low : boxes.high)[k], &far);
+    near = (near - origin[k]) * inverse[k];
+    far = (far - origin[k]) * inverse[k];
     // NaN (a ray within a slab's plane) keeps the interval unchanged.
     enter = near > enter ? near : enter;
     leave = far < leave ? far : leave;
   }
   // The margin compensates for rounding.
-  StoreLanes(enter <= leave * (1.0 + 1e-14) + 1e-300 ? enter : never, entries);
+  core::StoreLanes(enter <= leave * (1.0 + 1e-14) + 1e-300 ? enter : never, entries);
 }
 
 #undef SIMWRIGHT_INLINE
