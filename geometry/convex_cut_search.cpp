@@ -258,9 +258,9 @@ Piece MakePiece(core::TriangleMesh mesh, const CutContext& context) {
 std::vector<Piece> CutPiece(const Piece& piece, const CutPlane& plane, const CutContext& context) {
   std::vector<Piece> pieces;
   for (core::TriangleMesh& mesh : SplitByPlane(piece.mesh, plane, kOnPlane * context.diagonal)) {
-    const double size = core::Bounds(mesh).diagonal().norm();
     if (SignedVolume(mesh) < kMinFragment * context.solid_volume &&
-        size < 10 * context.options->min_thickness * context.diagonal) {
+        core::Bounds(mesh).diagonal().norm() <
+            10 * context.options->min_thickness * context.diagonal) {
       continue;
     }
     pieces.push_back(MakePiece(std::move(mesh), context));

@@ -67,10 +67,14 @@ core::TriangleMesh SearchMesh(const core::TriangleMesh& solid, double diagonal) 
   return solid;
 }
 
-void MeasureConcavity(const CutContext& context, Piece* piece) {
-  if (piece->concavity >= 0.0) return;
-  piece->concavity =
-      context.fit->Concavity(piece->hull, piece->volume, std::numeric_limits<double>::infinity());
+// Measures the concavities that are not known yet.
+void MeasureConcavities(const CutContext& context, std::vector<Piece>* pieces) {
+  core::ParallelFor(static_cast<int>(pieces->size()), [&](int i) {
+    Piece& piece = (*pieces)[i];
+    if (piece.concavity >= 0.0) return;
+    piece.concavity =
+        context.fit->Concavity(piece.hull, piece.volume, std::numeric_limits<double>::infinity());
+  });
 }
 
 // A decomposition by cuts: the finest pieces, and coarser ones that were cut further.
@@ -88,15 +92,19 @@ Cutting CutRepeatedly(const core::TriangleMesh& solid, double threshold,
                       const std::vector<int>& limits, const CutContext& context, Cutter cutter) {
   std::vector<Piece> nodes;  // all pieces; those of one cut follow their parent
   std::vector<int> parent, open, done;
-  const auto add = [&](Piece piece, int from) {
-    MeasureConcavity(context, &piece);
-    open.push_back(static_cast<int>(nodes.size()));
-    nodes.push_back(std::move(piece));
-    parent.push_back(from);
+  const auto add = [&](std::vector<Piece>&& pieces, int from) {
+    MeasureConcavities(context, &pieces);
+    for (Piece& piece : pieces) {
+      open.push_back(static_cast<int>(nodes.size()));
+      nodes.push_back(std::move(piece));
+      parent.push_back(from);
+    }
   };
+  std::vector<Piece> bodies;
   for (core::TriangleMesh& body : ConnectedBodies(solid)) {
-    add(MakePiece(std::move(body), context), -1);
+    bodies.push_back(MakePiece(std::move(body), context));
   }
+  add(std::move(bodies), -1);
   std::vector<std::vector<int>> stages;
   const auto keep = [&] {
     stages.push_back(done);
@@ -117,7 +125,7 @@ Cutting CutRepeatedly(const core::TriangleMesh& solid, double threshold,
     std::vector<Piece> cut;
     if (nodes[node].concavity > threshold) cut = cutter(nodes[node], context);
     if (cut.empty()) done.push_back(node);
-    for (Piece& piece : cut) add(std::move(piece), node);
+    add(std::move(cut), node);
   }
   keep();
 
@@ -151,21 +159,20 @@ struct Attempt {
   double worst = 0.0;  // concavity
 };
 
-// Merges the pieces of each stage of a cutting to at most `max_parts`. The stages are independent,
-// and their loops are short: each gets a thread.
+// Merges the pieces of each stage of a cutting to at most `max_parts`, one after the other: the
+// last has most of the work, so that threads share its loops instead of the stages.
 std::vector<Attempt> Merged(const Cutting& cutting, int max_parts, const CutContext& context) {
   const DecompositionOptions& options = *context.options;
-  std::vector<Attempt> attempts(cutting.stages.size());
-  core::ParallelFor(static_cast<int>(attempts.size()), [&](int i) {
-    Attempt& attempt = attempts[i];
-    attempt.cells = cutting.cells;
-    attempt.parts = cutting.stages[i];
-    if (options.merge || static_cast<int>(attempt.parts.size()) > max_parts) {
+  std::vector<Attempt> attempts;
+  for (const std::vector<Piece>& stage : cutting.stages) {
+    Attempt attempt{cutting.cells, stage};
+    if (options.merge || static_cast<int>(stage.size()) > max_parts) {
       MergePieces(context, options.merge ? options.threshold : 0.0, max_parts, &attempt.parts);
     }
-    for (Piece& piece : attempt.parts) MeasureConcavity(context, &piece);
+    MeasureConcavities(context, &attempt.parts);
     attempt.worst = WorstConcavity(attempt.parts);
-  });
+    attempts.push_back(std::move(attempt));
+  }
   return attempts;
 }
 
@@ -201,13 +208,13 @@ std::vector<Piece> LeastConcave(const std::vector<Cutting>& cuttings, int max_pa
     return IsBetter(a, b, context.options->threshold);
   };
   const auto improve = [&](int evaluations, std::vector<Attempt>* attempts) {
-    core::ParallelFor(static_cast<int>(attempts->size()), [&](int i) {
-      Attempt& attempt = (*attempts)[i];
+    // Threads share the loops of each attempt, since there are few attempts.
+    for (Attempt& attempt : *attempts) {
       const int parts = std::max<int>(kFewParts, attempt.parts.size());
       RegroupCells(context, evaluations * parts, &attempt.cells, &attempt.parts);
-      for (Piece& piece : attempt.parts) MeasureConcavity(context, &piece);
+      MeasureConcavities(context, &attempt.parts);
       attempt.worst = WorstConcavity(attempt.parts);
-    });
+    }
     std::stable_sort(attempts->begin(), attempts->end(), better);
   };
   std::vector<Attempt> attempts;
@@ -275,12 +282,15 @@ void GrowHulls(const core::TriangleMesh& solid, const CutContext& context,
 
 // Returns ConvexDecomposition::deviation.
 double Deviation(const std::vector<ConvexPart>& parts, const HullDeviation& fit) {
+  const int count = static_cast<int>(parts.size());
+  std::vector<std::vector<Eigen::Vector4d>> planes(parts.size());
+  std::vector<double> distances(parts.size());
+  core::ParallelFor(count, [&](int i) {
+    distances[i] = fit.Distance(parts[i].hull);
+    planes[i] = FacePlanes(parts[i].hull);
+  });
   double farthest = 0.0;
-  std::vector<std::vector<Eigen::Vector4d>> planes;
-  for (const ConvexPart& part : parts) {
-    farthest = std::max(farthest, fit.Distance(part.hull));
-    planes.push_back(FacePlanes(part.hull));
-  }
+  for (const double distance : distances) farthest = std::max(farthest, distance);
   for (const Vector3d& p : fit.samples()) {
     double height = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < planes.size() && height > farthest; ++i) {
@@ -322,14 +332,13 @@ ConvexDecomposition DecomposeUnit(const core::TriangleMesh& solid,
   ConvexDecomposition result;
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const Piece& a, const Piece& b) { return a.hull_volume > b.hull_volume; });
-  for (Piece& piece : pieces) {
-    MeasureConcavity(context, &piece);
-    ConvexPart part;
-    part.concavity = piece.concavity;
-    part.hull = WithinVertices(piece.hull, most_vertices, context);
-    result.concavity = std::max(result.concavity, part.concavity);
-    result.parts.push_back(std::move(part));
-  }
+  MeasureConcavities(context, &pieces);
+  result.concavity = WorstConcavity(pieces);
+  result.parts.resize(pieces.size());
+  core::ParallelFor(static_cast<int>(pieces.size()), [&](int i) {
+    result.parts[i].concavity = pieces[i].concavity;
+    result.parts[i].hull = WithinVertices(pieces[i].hull, most_vertices, context);
+  });
   result.deviation = Deviation(result.parts, fit);
   result.coverage = Coverage(solid, Hulls(result));
   return result;

@@ -67,15 +67,12 @@ void VisitSurface(const core::TriangleMesh& mesh, int count, Visit visit) {
 std::vector<Vector4d> FacePlanes(const core::TriangleMesh& hull) {
   std::vector<Vector4d> planes;
   planes.reserve(hull.triangles.size());
+  const PointLanes vertices(hull.vertices);
   for (int t = 0; t < static_cast<int>(hull.triangles.size()); ++t) {
     const Vector3d normal = core::TriangleAreaVector(hull, t).normalized();
-    Vector4d plane;
     // A thin triangle's normal may be inaccurate; a plane that supports all vertices is still
     // correct.
-    double offset = -std::numeric_limits<double>::infinity();
-    for (const Vector3d& v : hull.vertices) offset = std::max(offset, normal.dot(v));
-    plane << normal, offset;
-    planes.push_back(plane);
+    planes.emplace_back(normal.x(), normal.y(), normal.z(), vertices.Support(normal));
   }
   return planes;
 }
@@ -97,6 +94,7 @@ HullDeviation::HullDeviation(const core::TriangleMesh& solid, int samples, std::
     : solid_(solid),
       tree_(solid),
       samples_(SampleSurface(solid, samples, seed)),
+      sample_lanes_(samples_),
       unit_(0.5 * core::Bounds(solid).sizes().maxCoeff()) {
   const Eigen::AlignedBox3d box = core::Bounds(solid_);
   sample_volume_ = box.volume() / kOutsideSamples;
@@ -108,21 +106,16 @@ HullDeviation::HullDeviation(const core::TriangleMesh& solid, int samples, std::
       outside[i] = Outside(points[i]);
     }
   });
+  std::vector<Vector3d> kept;
   for (int i = 0; i < kOutsideSamples; ++i) {
-    if (outside[i]) outside_.push_back(points[i]);
+    if (outside[i]) kept.push_back(points[i]);
   }
+  outside_ = PointLanes(kept);
 }
 
 double HullDeviation::OutsideVolume(const core::TriangleMesh& hull,
                                     const std::vector<Vector4d>& planes) const {
-  const Eigen::AlignedBox3d box = core::Bounds(hull);
-  int count = 0;
-  for (const Vector3d& p : outside_) {
-    if (!box.contains(p)) continue;
-    count += std::all_of(planes.begin(), planes.end(),
-                         [&](const Vector4d& plane) { return plane.head<3>().dot(p) < plane[3]; });
-  }
-  return count * sample_volume_;
+  return outside_.Within(core::Bounds(hull)).CountBelow(planes) * sample_volume_;
 }
 
 double HullDeviation::VolumeConcavity(double excess_volume) const {
@@ -134,12 +127,16 @@ bool HullDeviation::Outside(const Vector3d& p) const {
   return !InsideSurface(solid_, tree_, p);
 }
 
-double HullDeviation::Overhang(const core::TriangleMesh& hull, int points, double enough) const {
-  double farthest = 0.0;
+double HullDeviation::Overhang(const core::TriangleMesh& hull, int points, double least,
+                               double enough) const {
+  double farthest = least;
+  int home = -1;
   VisitSurface(hull, points, [&](const Vector3d& p) {
     // Most points are nearer than the farthest so far, which is cheaper to test than their
     // distance.
-    if (!tree_.Within(p, farthest) && Outside(p)) farthest = tree_.Closest(p).distance;
+    if (!tree_.Within(p, farthest, &home) && Outside(p)) {
+      farthest = std::max(farthest, tree_.Closest(p).distance);
+    }
     return farthest <= enough;
   });
   return farthest;
@@ -147,23 +144,12 @@ double HullDeviation::Overhang(const core::TriangleMesh& hull, int points, doubl
 
 double HullDeviation::Buried(const core::TriangleMesh& hull, const std::vector<Vector4d>& planes,
                              double enough) const {
-  const Eigen::AlignedBox3d box = core::Bounds(hull);
-  double deepest = 0.0;
-  for (const Vector3d& p : samples_) {
-    if (!box.contains(p)) continue;
-    double depth = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < planes.size() && depth > deepest; ++i) {
-      depth = std::min(depth, planes[i][3] - planes[i].head<3>().dot(p));
-    }
-    deepest = std::max(deepest, depth);
-    if (deepest > enough) break;
-  }
-  return deepest;
+  return sample_lanes_.Within(core::Bounds(hull)).Depth(planes, enough);
 }
 
 double HullDeviation::Distance(const core::TriangleMesh& hull) const {
   const double all = std::numeric_limits<double>::infinity();
-  return std::max(Buried(hull, FacePlanes(hull), all), Overhang(hull, kHullPoints, all));
+  return Overhang(hull, kHullPoints, Buried(hull, FacePlanes(hull), all), all);
 }
 
 double HullDeviation::Concavity(const core::TriangleMesh& hull, double volume,
@@ -180,7 +166,10 @@ double HullDeviation::Measure(const core::TriangleMesh& hull, double volume, dou
   // Few points show most of the hulls that are too concave.
   for (const int points : {kFewHullPoints, kHullPoints}) {
     if (concavity > enough) return concavity;
-    concavity = std::max(concavity, Overhang(hull, points, enough * unit_) / unit_);
+    // Points that are nearer to the solid than this do not change the rounded concavity.
+    const double least = std::max(concavity, std::min(0.1 * kConcavityStep, 0.5 * enough)) * unit_;
+    const double farthest = Overhang(hull, points, least, enough * unit_);
+    if (farthest > least) concavity = std::max(concavity, farthest / unit_);
   }
   if (concavity > enough) return concavity;
   const double excess = SignedVolume(hull) - volume;

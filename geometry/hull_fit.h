@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/mesh.h"
+#include "geometry/point_lanes.h"
 #include "geometry/triangle_tree.h"
 
 namespace simwright::geometry {
@@ -47,7 +48,9 @@ class HullDeviation {
 
  private:
   double Measure(const core::TriangleMesh& hull, double volume, double enough) const;
-  double Overhang(const core::TriangleMesh& hull, int points, double enough) const;
+  // Returns the largest distance of a point on `hull` outside the solid to the solid, m, at least
+  // `least`. Stops at the first above `enough`.
+  double Overhang(const core::TriangleMesh& hull, int points, double least, double enough) const;
   // Both take the hull's face planes.
   double Buried(const core::TriangleMesh& hull, const std::vector<Eigen::Vector4d>& planes,
                 double enough) const;
@@ -58,7 +61,8 @@ class HullDeviation {
   core::TriangleMesh solid_;
   TriangleTree tree_;
   std::vector<Eigen::Vector3d> samples_;  // on the surface
-  std::vector<Eigen::Vector3d> outside_;  // in the AABB, outside the solid
+  PointLanes sample_lanes_;               // the same
+  PointLanes outside_;                    // in the AABB, outside the solid
   double sample_volume_ = 0.0;            // m^3, of each of outside_
   double unit_ = 1.0;
 };

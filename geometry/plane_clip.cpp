@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -37,36 +36,45 @@ using FaceBase =
 using Cdt = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::Exact_predicates_tag>;
 
+using Borders = std::vector<std::array<int, 2>>;  // undirected edges of vertices
+
 // The rim edges in the plane that remain after opposite ones cancel.
 class Rim {
  public:
   void Add(int from, int to) {
     if (from == to) return;
-    net_[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : -1;
+    uses_.push_back({{std::min(from, to), std::max(from, to)}, from < to ? 1 : -1});
   }
 
-  // Returns the undirected edges that the cap's border crosses an odd number of times. If a crack
-  // from rounding breaks a loop open, joins its two ends.
-  std::vector<std::array<int, 2>> Borders() const {
-    std::vector<std::array<int, 2>> borders;
-    std::map<int, int> degree;
-    for (const auto& [edge, count] : net_) {
-      if (count % 2 == 0) continue;
-      borders.push_back({edge.first, edge.second});
-      ++degree[edge.first];
-      ++degree[edge.second];
+  // Returns the undirected edges that the cap's border crosses an odd number of times, ascending.
+  // If a crack from rounding breaks a loop open, joins its two ends.
+  Borders TakeBorders() {
+    std::sort(uses_.begin(), uses_.end());
+    Borders borders;
+    std::vector<int> ends;
+    for (std::size_t i = 0, next = 0; i < uses_.size(); i = next) {
+      int net = 0;
+      for (next = i; next < uses_.size() && uses_[next].first == uses_[i].first; ++next) {
+        net += uses_[next].second;
+      }
+      if (net % 2 == 0) continue;
+      borders.push_back(uses_[i].first);
+      ends.insert(ends.end(), uses_[i].first.begin(), uses_[i].first.end());
     }
+    std::sort(ends.begin(), ends.end());
     std::vector<int> loose;
-    for (const auto& [vertex, count] : degree) {
-      if (count % 2 == 1) loose.push_back(vertex);
+    for (std::size_t i = 0, next = 0; i < ends.size(); i = next) {
+      while (next < ends.size() && ends[next] == ends[i]) ++next;
+      if ((next - i) % 2 == 1) loose.push_back(ends[i]);
     }
-    for (std::size_t i = 0; i + 1 < loose.size(); i += 2)
+    for (std::size_t i = 0; i + 1 < loose.size(); i += 2) {
       borders.push_back({loose[i], loose[i + 1]});
+    }
     return borders;
   }
 
  private:
-  std::map<std::pair<int, int>, int> net_;
+  std::vector<std::pair<std::array<int, 2>, int>> uses_;  // from the lower vertex: +1; else -1
 };
 
 // Marks faces with the parity of borders crossed from the outside.
@@ -151,6 +159,10 @@ class Cut {
       below += heights_[t[k]] < 0.0;
     }
     if (above + below == 0) return;  // rebuilt with the cap
+    if (above == 3 || below == 3) {
+      (above == 3 ? above_ : below_).mesh.triangles.push_back(t);
+      return;
+    }
     for (Side* side : {&above_, &below_}) {
       if ((side->sign > 0 ? above : below) == 0) continue;
       int corner[4];
@@ -184,11 +196,36 @@ class Cut {
     return entry->second;
   }
 
+  // The triangles that close a side, seen from above, and the vertices that they replace by others
+  // at the same place.
+  struct Cap {
+    Borders borders;
+    std::vector<Vector3i> triangles;
+    std::unordered_map<int, int> same;
+  };
+
   void AddCap(Side* side) {
-    const auto borders = side->rim.Borders();
+    Borders borders = side->rim.TakeBorders();
+    // Both sides have the same borders, unless faces lie in the plane.
+    if (borders.empty()) return;
+    if (borders != cap_.borders) cap_ = MakeCap(std::move(borders));
+    for (Vector3i& t : side->mesh.triangles) {
+      for (int k = 0; k < 3 && !cap_.same.empty(); ++k) {
+        const auto twin = cap_.same.find(t[k]);
+        if (twin != cap_.same.end()) t[k] = twin->second;
+      }
+    }
+    for (Vector3i t : cap_.triangles) {
+      if (side->sign > 0) std::swap(t[1], t[2]);
+      side->mesh.triangles.push_back(t);
+    }
+  }
+
+  Cap MakeCap(Borders borders) {
+    Cap cap;
+    cap.borders = std::move(borders);
     Cdt cdt;
     std::unordered_map<int, Cdt::Vertex_handle> handles;
-    std::unordered_map<int, int> same;  // vertices that coincide in the plane
     const auto handle = [&](int i) {
       const auto [entry, added] = handles.try_emplace(i);
       if (added) {
@@ -198,34 +235,34 @@ class Cut {
         if (index < 0) {
           index = i;
         } else {
-          same[i] = index;
+          cap.same[i] = index;
         }
       }
       return entry->second;
     };
-    std::map<std::pair<int, int>, int> doubled;
-    for (const auto& [from, to] : borders) {
+    Borders constraints;
+    for (const auto& [from, to] : cap.borders) {
       const int a = handle(from)->info().index, b = handle(to)->info().index;
-      if (a != b) ++doubled[{std::min(a, b), std::max(a, b)}];
+      if (a != b) constraints.push_back({std::min(a, b), std::max(a, b)});
     }
-    for (const auto& [edge, count] : doubled) {
-      if (count % 2 == 1) cdt.insert_constraint(handles.at(edge.first), handles.at(edge.second));
+    std::sort(constraints.begin(), constraints.end());
+    for (std::size_t i = 0, next = 0; i < constraints.size(); i = next) {
+      while (next < constraints.size() && constraints[next] == constraints[i]) ++next;
+      if ((next - i) % 2 == 0) continue;
+      cdt.insert_constraint(handles.at(constraints[i][0]), handles.at(constraints[i][1]));
     }
-    if (cdt.dimension() < 2) return;
+    if (cdt.dimension() < 2) {
+      cap.same.clear();
+      return cap;
+    }
     MarkNesting(&cdt);
-    for (Vector3i& t : side->mesh.triangles) {
-      for (int k = 0; k < 3 && !same.empty(); ++k) {
-        const auto twin = same.find(t[k]);
-        if (twin != same.end()) t[k] = twin->second;
-      }
-    }
     for (auto face = cdt.finite_faces_begin(); face != cdt.finite_faces_end(); ++face) {
       if (face->info().nesting % 2 == 0) continue;
       Vector3i t;
       for (int k = 0; k < 3; ++k) t[k] = IndexOf(face->vertex(k));
-      if (side->sign > 0) std::swap(t[1], t[2]);
-      side->mesh.triangles.push_back(t);
+      cap.triangles.push_back(t);
     }
+    return cap;
   }
 
   int IndexOf(Cdt::Vertex_handle vertex) {
@@ -245,6 +282,7 @@ class Cut {
   std::unordered_map<std::uint64_t, int> crossings_;
   Side above_{1, {}, {}};
   Side below_{-1, {}, {}};
+  Cap cap_;  // the last one
 };
 
 int ClipRoot(std::vector<int>* parent, int i) {
@@ -254,17 +292,29 @@ int ClipRoot(std::vector<int>* parent, int i) {
 
 }  // namespace
 
-std::vector<core::TriangleMesh> ConnectedBodies(const core::TriangleMesh& mesh) {
+std::vector<core::TriangleMesh> ConnectedBodies(core::TriangleMesh mesh) {
   const int n = static_cast<int>(mesh.vertices.size());
   std::vector<int> parent(n);
   std::iota(parent.begin(), parent.end(), 0);
+  int components = n, numbered = 0;  // vertices in the order of the triangles, so far
   for (const Vector3i& t : mesh.triangles) {
     const int a = ClipRoot(&parent, t[0]);
-    parent[ClipRoot(&parent, t[1])] = a;
-    parent[ClipRoot(&parent, t[2])] = a;
+    for (const int v : {t[1], t[2]}) {
+      const int root = ClipRoot(&parent, v);
+      components -= root != a;
+      parent[root] = a;
+    }
+    for (int k = 0; k < 3 && numbered >= 0; ++k) {
+      if (t[k] == numbered) ++numbered;
+      if (t[k] > numbered) numbered = -1;
+    }
+  }
+  std::vector<core::TriangleMesh> bodies;
+  if (components == 1 && numbered == n) {
+    bodies.push_back(std::move(mesh));
+    return bodies;
   }
   std::vector<int> body_of(n, -1), index(n, -1);
-  std::vector<core::TriangleMesh> bodies;
   for (Vector3i t : mesh.triangles) {
     int& body = body_of[ClipRoot(&parent, t[0])];
     if (body < 0) {
@@ -313,8 +363,9 @@ std::vector<core::TriangleMesh> SplitByPlane(const core::TriangleMesh& mesh, con
     }
   }
   const double whole = SignedVolume(mesh);
-  const double slack = 1e-6 * whole + 4.0 * tolerance * core::SurfaceArea(mesh);
-  if (!(std::abs(sum - whole) <= slack)) return {};
+  const double error = std::abs(sum - whole);
+  if (error <= 1e-6 * whole) return pieces;
+  if (!(error <= 1e-6 * whole + 4.0 * tolerance * core::SurfaceArea(mesh))) return {};
   return pieces;
 }
 

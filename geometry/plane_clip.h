@@ -23,6 +23,6 @@ std::vector<core::TriangleMesh> SplitByPlane(const core::TriangleMesh& mesh, con
 
 // Splits a mesh into bodies that share no vertex. An inward surface (a void) stays with the body
 // around it.
-std::vector<core::TriangleMesh> ConnectedBodies(const core::TriangleMesh& mesh);
+std::vector<core::TriangleMesh> ConnectedBodies(core::TriangleMesh mesh);
 
 }  // namespace simwright::geometry

@@ -23,11 +23,12 @@ class Quickhull {
   static constexpr double kTie = 1e-10;        // of the diagonal: points equally far above a face
   static constexpr double kThin = 1e-3;        // of the diagonal: a face whose plane may be
                                                // inaccurate
+  static constexpr double kNone = -1.0;        // height of a face without points outside
   static constexpr double kThinnest = 1e-8;    // of the diagonal: smallest height of a triangle
 
  public:
   Quickhull(const std::vector<Vector3d>& points, double diagonal, double tolerance)
-      : points_(points), diagonal_(diagonal), tolerance_(tolerance) {
+      : points_(points), diagonal_(diagonal), tolerance_(tolerance), next_(points.size(), -1) {
     Vector3d sum = Vector3d::Zero();
     for (const Vector3d& p : points_) sum += p;
     middle_ = sum / static_cast<double>(points_.size());
@@ -92,12 +93,6 @@ class Quickhull {
   // than the tolerance. `needle` receives the middle point of a faulty thin triangle.
   Verdict Judge(int* needle) const {
     if (skipped_ > 4 * tolerance_) return Verdict::kFolded;
-    std::vector<int> corners;
-    for (const Face& face : faces_) {
-      if (face.alive) corners.insert(corners.end(), face.vertex.begin(), face.vertex.end());
-    }
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     bool folded = false;
     for (const Face& face : faces_) {
       if (!face.alive) continue;
@@ -106,17 +101,14 @@ class Quickhull {
       bool good = height > kThinnest * diagonal_ && face.Height(inside_) < -tolerance_;
       // A thin face's plane says little about its neighbourhood: test it against all corners.
       if (height < kThin * diagonal_) {
-        for (const int v : corners) good = good && face.Height(points_[v]) <= 8 * tolerance_;
-        if (!good) {
+        if (!good || !Supports(face)) {
           *needle = face.vertex[apex];
           return Verdict::kNeedle;
         }
         continue;
       }
-      for (const int n : face.neighbour) {
-        for (const int v : faces_[n].vertex) {
-          good = good && face.Height(points_[v]) <= 8 * tolerance_;
-        }
+      for (int k = 0; k < 3; ++k) {
+        good = good && face.Height(points_[Opposite(face, k)]) <= 8 * tolerance_;
       }
       folded = folded || !good;
     }
@@ -134,7 +126,7 @@ class Quickhull {
     int visited = 0;
     int farthest = -1;
     double farthest_height = 0.0;
-    std::vector<int> outside;
+    int first = -1, last = -1;  // of the list of points outside of it (next_); -1: none
 
     double Height(const Vector3d& p) const { return normal.dot(p) - offset; }
   };
@@ -147,12 +139,32 @@ class Quickhull {
   double LongestEdge(const Face& face, int* apex) const {
     double longest = 0.0;
     for (int k = 0; k < 3; ++k) {
-      const Vector3d edge = points_[face.vertex[(k + 1) % 3]] - points_[face.vertex[(k + 2) % 3]];
-      if (edge.norm() <= longest) continue;
-      longest = edge.norm();
+      const double length =
+          (points_[face.vertex[(k + 1) % 3]] - points_[face.vertex[(k + 2) % 3]]).norm();
+      if (length <= longest) continue;
+      longest = length;
       *apex = k;
     }
     return longest;
+  }
+
+  // Returns the corner of the neighbour across the edge `k` that is not on it.
+  int Opposite(const Face& face, int k) const {
+    const Face& other = faces_[face.neighbour[k]];
+    int at = 0;
+    while (other.vertex[at] == face.vertex[k] || other.vertex[at] == face.vertex[(k + 1) % 3]) ++at;
+    return other.vertex[at];
+  }
+
+  // Returns true if no corner of the hull is above the face.
+  bool Supports(const Face& face) const {
+    for (const Face& other : faces_) {
+      if (!other.alive) continue;
+      for (const int v : other.vertex) {
+        if (face.Height(points_[v]) > 8 * tolerance_) return false;
+      }
+    }
+    return true;
   }
 
   bool FirstTetrahedron(std::array<int, 4>* corner) const {
@@ -194,6 +206,7 @@ class Quickhull {
     if (free_.empty()) {
       index = static_cast<int>(faces_.size());
       faces_.emplace_back();
+      height_.push_back(kNone);
     } else {
       index = free_.back();
       free_.pop_back();
@@ -206,39 +219,43 @@ class Quickhull {
     face.offset = face.normal.dot(points_[a] + points_[b] + points_[c]) / 3.0;
     face.alive = true;
     face.visited = 0;
-    face.farthest = -1;
-    face.farthest_height = 0.0;
-    face.outside.clear();
+    Empty(index);
     return index;
   }
 
-  // Assigns each point to the face that it is farthest above; points inside all faces are dropped.
-  void Distribute(const std::vector<int>& candidates, const std::vector<int>& faces) {
-    for (const int p : candidates) {
-      int best = -1;
-      double highest = tolerance_;
-      for (const int f : faces) {
-        const double height = faces_[f].Height(points_[p]);
-        if (height > highest) {
-          highest = height;
-          best = f;
-        }
-      }
-      if (best < 0) continue;
-      Face& face = faces_[best];
-      face.outside.push_back(p);
-      const double tie = kTie * diagonal_;
-      const bool farther = highest > face.farthest_height + tie;
-      const bool same = !farther && highest > face.farthest_height - tie;
-      if (face.farthest < 0 || farther ||
-          (same && (points_[p] - middle_).squaredNorm() >
-                       (points_[face.farthest] - middle_).squaredNorm())) {
-        face.farthest = p;
-        face.farthest_height = std::max(face.farthest_height, highest);
-      }
+  // Forgets the points outside of a face.
+  void Empty(int index) {
+    Face& face = faces_[index];
+    face.farthest = face.first = face.last = -1;
+    face.farthest_height = 0.0;
+    height_[index] = kNone;
+  }
+
+  // Appends a face's points to `points`, except for `left_out`.
+  void AppendOutside(const Face& face, int left_out, std::vector<int>* points) const {
+    for (int p = face.first; p >= 0; p = next_[p]) {
+      if (p != left_out) points->push_back(p);
     }
-    for (const int f : faces) {
-      if (!faces_[f].outside.empty()) pending_.push_back(f);
+  }
+
+  // Assigns each point to the face that it is farthest above; points inside all faces are dropped.
+  void Distribute(const std::vector<int>& candidates, const std::vector<int>& faces);
+
+  // Adds a point to those outside of a face.
+  void Assign(int p, int index, double height) {
+    Face& face = faces_[index];
+    (face.last < 0 ? face.first : next_[face.last]) = p;
+    face.last = p;
+    next_[p] = -1;
+    const double tie = kTie * diagonal_;
+    const bool farther = height > face.farthest_height + tie;
+    const bool same = !farther && height > face.farthest_height - tie;
+    if (face.farthest < 0 || farther ||
+        (same &&
+         (points_[p] - middle_).squaredNorm() > (points_[face.farthest] - middle_).squaredNorm())) {
+      face.farthest = p;
+      face.farthest_height = std::max(face.farthest_height, height);
+      height_[index] = face.farthest_height;
     }
   }
 
@@ -246,18 +263,14 @@ class Quickhull {
     while (!pending_.empty()) {
       const int f = pending_.back();
       pending_.pop_back();
-      if (faces_[f].alive && !faces_[f].outside.empty()) return f;
+      if (faces_[f].alive && faces_[f].first >= 0) return f;
     }
     return -1;
   }
 
   int FarthestFace() const {
-    int best = -1;
-    for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
-      if (!faces_[f].alive || faces_[f].outside.empty()) continue;
-      if (best < 0 || faces_[f].farthest_height > faces_[best].farthest_height) best = f;
-    }
-    return best;
+    const auto best = std::max_element(height_.begin(), height_.end());
+    return *best == kNone ? -1 : static_cast<int>(best - height_.begin());
   }
 
   // Collects into seen_ the faces visible from `p` and connected to `face`, and into horizon_ their
@@ -305,12 +318,8 @@ class Quickhull {
     Face& f = faces_[face];
     skipped_ = std::max(skipped_, f.farthest_height);
     std::vector<int> rest;
-    for (const int p : f.outside) {
-      if (p != f.farthest) rest.push_back(p);
-    }
-    f.outside.clear();
-    f.farthest = -1;
-    f.farthest_height = 0.0;
+    AppendOutside(f, f.farthest, &rest);
+    Empty(face);
     Distribute(rest, {face});
   }
 
@@ -323,7 +332,7 @@ class Quickhull {
       int best = apex;
       double highest = faces_[face].Height(points_[apex]);
       for (const int f : seen_) {
-        for (const int p : faces_[f].outside) {
+        for (int p = faces_[f].first; p >= 0; p = next_[p]) {
           const double height = faces_[face].Height(points_[p]);
           if (height < highest - kTie * diagonal_) continue;
           const bool farther =
@@ -350,10 +359,8 @@ class Quickhull {
     orphans_.clear();
     for (const int f : seen_) {
       faces_[f].alive = false;
-      for (const int p : faces_[f].outside) {
-        if (p != apex) orphans_.push_back(p);
-      }
-      faces_[f].outside.clear();
+      AppendOutside(faces_[f], apex, &orphans_);
+      Empty(f);
     }
     added_.clear();
     for (const HorizonEdge& edge : horizon_) {
@@ -378,6 +385,9 @@ class Quickhull {
   Vector3d middle_;
   Vector3d inside_ = Vector3d::Zero();
   std::vector<Face> faces_;
+  std::vector<double> height_;  // of the farthest point outside of each face; kNone: none
+  std::vector<int> next_;       // of each point: the next one outside of the same face, or -1
+  std::vector<double> packed_;  // faces by coordinate, in Distribute
   std::vector<int> free_, pending_, seen_, added_, orphans_;
   std::vector<HorizonEdge> horizon_;
   int visit_ = 0;

@@ -5,54 +5,110 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/triangle_lanes.h"
+
 namespace simwright::geometry {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kLeafSize = 4;
-constexpr int kMaxDepth = 64;
+constexpr int kWidth = core::kLanes;    // children of a node, triangles of a leaf
+constexpr int kDeepest = 64;            // entries of a stack: three for each of at most 16 levels
+constexpr double kBoxRounding = 1e-12;  // of the largest coordinate
 
-double BoxDistanceSquared(const Vector3d& p, const Vector3d& low, const Vector3d& high) {
-  return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
-}
+// A node or leaf (TriangleTree::Node::child) that waits for its visit, and its bound.
+struct Waiting {
+  int child;
+  double bound;
+};
 
-// Returns the ray parameter at which the ray enters the AABB, or infinity.
-double BoxEntry(const Vector3d& origin, const Vector3d& inverse, const Vector3d& low,
-                const Vector3d& high, double reach) {
-  double enter = 0.0;
-  double leave = reach;
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool backwards = inverse[axis] < 0.0;
-    const double near = ((backwards ? high : low)[axis] - origin[axis]) * inverse[axis];
-    const double far = ((backwards ? low : high)[axis] - origin[axis]) * inverse[axis];
-    // NaN (a ray within a slab's plane) keeps the interval unchanged.
-    enter = near > enter ? near : enter;
-    leave = far < leave ? far : leave;
+// The children of one node that wait, the nearest last.
+class Queue {
+ public:
+  void Push(int child, double bound) {
+    int at = size_++;
+    for (; at > from_ && entries_[at - 1].bound < bound; --at) entries_[at] = entries_[at - 1];
+    entries_[at] = {child, bound};
   }
-  // The margin compensates for rounding at an AABB of zero thickness.
-  return enter <= leave * (1.0 + 1e-14) + 1e-300 ? enter : std::numeric_limits<double>::infinity();
-}
+  // Starts the children of another node, which are visited before all that wait.
+  void Open() { from_ = size_; }
+  bool empty() const { return size_ == 0; }
+  const Waiting& Pop() { return entries_[--size_]; }
 
-// Intersects a ray with a triangle from either side, borders included (Moeller and Trumbore 1997).
-bool HitTriangle(const Vector3d& origin, const Vector3d& direction, const Vector3d& a,
-                 const Vector3d& b, const Vector3d& c, double* t) {
-  const Vector3d ab = b - a;
-  const Vector3d ac = c - a;
-  const Vector3d p = direction.cross(ac);
-  const double determinant = ab.dot(p);
-  if (determinant == 0.0) return false;
-  const double inverse = 1.0 / determinant;
-  constexpr double kSlack = 1e-12;
-  const Vector3d s = origin - a;
-  const double u = s.dot(p) * inverse;
-  if (!(u >= -kSlack && u <= 1.0 + kSlack)) return false;
-  const Vector3d q = s.cross(ab);
-  const double v = direction.dot(q) * inverse;
-  if (!(v >= -kSlack && u + v <= 1.0 + kSlack)) return false;
-  *t = ac.dot(q) * inverse;
-  return std::isfinite(*t);
-}
+ private:
+  std::array<Waiting, kDeepest> entries_;
+  int size_ = 0, from_ = 0;
+};
+
+// The triangles of a mesh, in an order that construction changes, with the middles of their AABBs.
+class Splitting {
+ public:
+  struct Range {
+    int first, count;
+  };
+
+  explicit Splitting(const core::TriangleMesh& mesh)
+      : mesh_(mesh), order_(mesh.triangles.size()), middles_(mesh.triangles.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    for (std::size_t t = 0; t < middles_.size(); ++t) {
+      const Eigen::AlignedBox3d box = BoxOf(static_cast<int>(t));
+      middles_[t] = 0.5 * (box.min() + box.max());
+    }
+  }
+
+  int At(int place) const { return order_[place]; }
+
+  Eigen::AlignedBox3d BoxOf(const Range& range) const {
+    Eigen::AlignedBox3d box;
+    for (int i = range.first; i < range.first + range.count; ++i) box.extend(BoxOf(order_[i]));
+    return box;
+  }
+
+  // Returns up to four parts of a range, halved at the medians of the middles: the depth is
+  // logarithmic for any input. Halves are multiples of a leaf's size, so that few leaves have gaps.
+  std::vector<Range> Parts(const Range& whole) {
+    std::vector<Range> parts{whole};
+    while (parts.size() < kWidth) {
+      const auto largest =
+          std::max_element(parts.begin(), parts.end(),
+                           [](const Range& a, const Range& b) { return a.count < b.count; });
+      if (largest->count <= kWidth) break;
+      const Range range = *largest;
+      const int half = (range.count / 2 + kWidth - 1) / kWidth * kWidth;
+      Halve(range, half);
+      *largest = {range.first, half};
+      parts.insert(largest + 1, {range.first + half, range.count - half});
+    }
+    return parts;
+  }
+
+ private:
+  Eigen::AlignedBox3d BoxOf(int triangle) const {
+    Eigen::AlignedBox3d box;
+    for (int k = 0; k < 3; ++k) box.extend(mesh_.vertices[mesh_.triangles[triangle][k]]);
+    return box;
+  }
+
+  // Moves the `half` triangles that are lower along the longest extent to the front; ties go by
+  // number.
+  void Halve(const Range& range, int half) {
+    Eigen::AlignedBox3d spread;
+    for (int i = range.first; i < range.first + range.count; ++i) {
+      spread.extend(middles_[order_[i]]);
+    }
+    int axis = 0;
+    spread.sizes().maxCoeff(&axis);
+    std::nth_element(order_.begin() + range.first, order_.begin() + range.first + half,
+                     order_.begin() + range.first + range.count, [&](int a, int b) {
+                       const double at_a = middles_[a][axis], at_b = middles_[b][axis];
+                       return at_a < at_b || (at_a == at_b && a < b);
+                     });
+  }
+
+  const core::TriangleMesh& mesh_;
+  std::vector<int> order_;
+  std::vector<Vector3d> middles_;
+};
 
 }  // namespace
 
@@ -85,182 +141,211 @@ Vector3d ClosestPointOnTriangle(const Vector3d& p, const Vector3d& a, const Vect
   return a + (vb / sum) * ab + (vc / sum) * ac;
 }
 
-TriangleTree::TriangleTree(const core::TriangleMesh& mesh) {
-  core::RequireValid(mesh, "triangle tree");
-  const int count = static_cast<int>(mesh.triangles.size());
-  order_.resize(count);
-  std::iota(order_.begin(), order_.end(), 0);
-  corners_.resize(3 * static_cast<std::size_t>(count));
-  for (int t = 0; t < count; ++t) {
-    for (int c = 0; c < 3; ++c) {
-      corners_[3 * static_cast<std::size_t>(t) + c] = mesh.vertices[mesh.triangles[t][c]];
-    }
-  }
-  normals_.resize(count);
-  for (int t = 0; t < count; ++t) normals_[t] = core::TriangleAreaVector(mesh, t).normalized();
-  if (count > 0) Build();
-}
+namespace {
 
-Vector3d TriangleTree::Enclose(const std::vector<Vector3d>& source,
-                               const std::vector<Vector3d>& centers, int first, int count,
-                               Node* node) const {
-  node->low.setConstant(std::numeric_limits<double>::infinity());
-  node->high = -node->low;
-  Vector3d center_low = node->low;
-  Vector3d center_high = node->high;
-  for (int i = first; i < first + count; ++i) {
-    for (int c = 0; c < 3; ++c) {
-      const Vector3d& p = source[3 * static_cast<std::size_t>(order_[i]) + c];
-      node->low = node->low.cwiseMin(p);
-      node->high = node->high.cwiseMax(p);
-    }
-    center_low = center_low.cwiseMin(centers[order_[i]]);
-    center_high = center_high.cwiseMax(centers[order_[i]]);
-  }
-  return center_high - center_low;
-}
-
-void TriangleTree::Build() {
-  const std::vector<Vector3d> source = corners_;
-  const int count = static_cast<int>(order_.size());
-  std::vector<Vector3d> centers(count);
-  for (int t = 0; t < count; ++t) {
-    const Vector3d* c = &source[3 * static_cast<std::size_t>(t)];
-    centers[t] = 0.5 * (c[0].cwiseMin(c[1]).cwiseMin(c[2]) + c[0].cwiseMax(c[1]).cwiseMax(c[2]));
-  }
-  struct Task {
-    int first, count, parent;  // parent: node whose right child this is, or -1
-  };
-  std::vector<Task> tasks{{0, count, -1}};
-  nodes_.reserve(static_cast<std::size_t>(count));
-  while (!tasks.empty()) {
-    const Task task = tasks.back();
-    tasks.pop_back();
-    const int index = static_cast<int>(nodes_.size());
-    if (task.parent >= 0) nodes_[task.parent].first = index;
-    Node node;
-    const Vector3d spread = Enclose(source, centers, task.first, task.count, &node);
-    if (task.count <= kLeafSize) {
-      node.first = task.first;
-      node.count = task.count;
-      nodes_.push_back(node);
-      continue;
-    }
-    nodes_.push_back(node);
-    int axis = 0;
-    spread.maxCoeff(&axis);
-    // The median split keeps the depth logarithmic for any input; ties go by index.
-    const int half = task.count / 2;
-    std::nth_element(order_.begin() + task.first, order_.begin() + task.first + half,
-                     order_.begin() + task.first + task.count, [&](int a, int b) {
-                       const double ca = centers[a][axis];
-                       const double cb = centers[b][axis];
-                       return ca < cb || (ca == cb && a < b);
-                     });
-    tasks.push_back({task.first + half, task.count - half, index});
-    tasks.push_back({task.first, half, -1});
-  }
-  for (int i = 0; i < count; ++i) {
-    for (int c = 0; c < 3; ++c) {
-      corners_[3 * static_cast<std::size_t>(i) + c] =
-          source[3 * static_cast<std::size_t>(order_[i]) + c];
-    }
-  }
-}
-
+// Visits leaves that may be within reach, nearer AABBs first: visit(leaf, squared distances of its
+// triangles), until it returns false. The visitor may shorten the reach.
 template <typename Visit>
-void TriangleTree::VisitNear(const Vector3d& p, const double& reach_squared, Visit visit) const {
-  if (nodes_.empty()) return;
-  std::array<std::pair<int, double>, kMaxDepth> stack;
-  int top = 0;
-  stack[top++] = {0, BoxDistanceSquared(p, nodes_[0].low, nodes_[0].high)};
-  while (top > 0) {
-    const auto [index, bound] = stack[--top];
+__attribute__((always_inline)) inline void VisitNear(const std::vector<TreeNode>& nodes,
+                                                     const std::vector<TreeLeaf>& leaves,
+                                                     const Vector3d& p, const double& reach_squared,
+                                                     Visit visit) {
+  if (nodes.empty()) return;
+  Queue queue;
+  queue.Push(0, 0.0);
+  double squared[kWidth];
+  while (!queue.empty()) {
+    const auto [child, bound] = queue.Pop();
     if (bound > reach_squared) continue;
-    const Node& node = nodes_[index];
-    if (node.count > 0) {
-      for (int i = node.first; i < node.first + node.count; ++i) {
-        const Vector3d* c = &corners_[3 * static_cast<std::size_t>(i)];
-        const Vector3d q = ClosestPointOnTriangle(p, c[0], c[1], c[2]);
-        if (!visit(q, (q - p).squaredNorm(), order_[i])) return;
-      }
+    if (child < 0) {
+      const TreeLeaf& leaf = leaves[~child];
+      SquaredDistances(leaf.triangles, p, squared);
+      if (!visit(leaf, squared)) return;
       continue;
     }
-    const int left = index + 1;
-    const int right = node.first;
-    const double dl = BoxDistanceSquared(p, nodes_[left].low, nodes_[left].high);
-    const double dr = BoxDistanceSquared(p, nodes_[right].low, nodes_[right].high);
-    const bool left_first = dl <= dr;
-    const std::pair<int, double> far = left_first ? std::pair{right, dr} : std::pair{left, dl};
-    const std::pair<int, double> near = left_first ? std::pair{left, dl} : std::pair{right, dr};
-    if (far.second <= reach_squared) stack[top++] = far;
-    if (near.second <= reach_squared) stack[top++] = near;
+    const TreeNode& node = nodes[child];
+    SquaredDistances(node.boxes, p, squared);
+    queue.Open();
+    for (int i = 0; i < node.count; ++i) {
+      if (squared[i] <= reach_squared) queue.Push(node.child[i], squared[i]);
+    }
   }
 }
 
-SurfacePoint TriangleTree::Closest(const Vector3d& p, double reach) const {
+SIMWRIGHT_WIDEST_VECTORS SurfacePoint ClosestPoint(const std::vector<TreeNode>& nodes,
+                                                   const std::vector<TreeLeaf>& leaves,
+                                                   const Vector3d& p, double reach) {
   SurfacePoint best;
   double best_squared = reach * reach;
-  VisitNear(p, best_squared, [&](const Vector3d& q, double squared, int triangle) {
-    if (squared < best_squared ||
-        (squared == best_squared && (best.triangle < 0 || triangle < best.triangle))) {
-      best_squared = squared;
-      best.point = q;
-      best.triangle = triangle;
+  const TreeLeaf* home = nullptr;
+  int place = 0;
+  const auto take = [&](const TreeLeaf& leaf, const double* squared)
+      __attribute__((always_inline)) {
+    for (int i = 0; i < kWidth; ++i) {
+      if (squared[i] < best_squared ||
+          (squared[i] == best_squared && (best.triangle < 0 || leaf.index[i] < best.triangle))) {
+        best_squared = squared[i];
+        best.triangle = leaf.index[i];
+        home = &leaf;
+        place = i;
+      }
     }
     return true;
-  });
-  if (best.triangle >= 0) best.distance = std::sqrt(best_squared);
+  };
+  VisitNear(nodes, leaves, p, best_squared, take);
+  if (!home) return best;
+  const auto corner = [&](const double(&rows)[3][kWidth]) {
+    return Vector3d(rows[0][place], rows[1][place], rows[2][place]);
+  };
+  const TriangleLanes& triangles = home->triangles;
+  best.point =
+      ClosestPointOnTriangle(p, corner(triangles.a), corner(triangles.b), corner(triangles.c));
+  best.distance = std::sqrt(best_squared);
   return best;
 }
 
-bool TriangleTree::Within(const Vector3d& p, double reach) const {
+SIMWRIGHT_WIDEST_VECTORS bool IsWithin(const std::vector<TreeNode>& nodes,
+                                       const std::vector<TreeLeaf>& leaves, const Vector3d& p,
+                                       double reach, int* home) {
   const double reach_squared = reach * reach;
   bool within = false;
-  VisitNear(p, reach_squared, [&](const Vector3d&, double squared, int) {
-    within = squared <= reach_squared;
+  const auto test = [&](const TreeLeaf& leaf, const double* squared)
+      __attribute__((always_inline)) {
+    for (int i = 0; i < kWidth; ++i) within |= squared[i] <= reach_squared;
+    if (within) *home = static_cast<int>(&leaf - leaves.data());
     return !within;
-  });
+  };
+  if (*home >= 0) {
+    double squared[kWidth];
+    SquaredDistances(leaves[*home].triangles, p, squared);
+    if (!test(leaves[*home], squared)) return true;
+  }
+  VisitNear(nodes, leaves, p, reach_squared, test);
   return within;
 }
 
-std::optional<SurfacePoint> TriangleTree::FirstHit(const Vector3d& origin,
-                                                   const Vector3d& direction, double reach) const {
-  if (nodes_.empty()) return std::nullopt;
-  const Vector3d inverse = direction.cwiseInverse();
+// Returns triangle -1 if nothing is hit.
+SIMWRIGHT_WIDEST_VECTORS SurfacePoint NearestHit(const std::vector<TreeNode>& nodes,
+                                                 const std::vector<TreeLeaf>& leaves,
+                                                 const Vector3d& origin, const Vector3d& direction,
+                                                 double reach) {
   SurfacePoint best;
+  if (nodes.empty()) return best;
+  const Vector3d inverse = direction.cwiseInverse();
   double limit = reach;
-  std::array<std::pair<int, double>, kMaxDepth> stack;
-  int top = 0;
-  stack[top++] = {0, BoxEntry(origin, inverse, nodes_[0].low, nodes_[0].high, limit)};
-  while (top > 0) {
-    const auto [index, entry] = stack[--top];
-    if (!(entry <= limit) || std::isinf(entry)) continue;
-    const Node& node = nodes_[index];
-    if (node.count > 0) {
-      for (int i = node.first; i < node.first + node.count; ++i) {
-        const Vector3d* c = &corners_[3 * static_cast<std::size_t>(i)];
-        double t = 0.0;
-        if (!HitTriangle(origin, direction, c[0], c[1], c[2], &t) || t < 0.0) continue;
-        if (t < limit || (t == limit && (best.triangle < 0 || order_[i] < best.triangle))) {
-          limit = t;
-          best.triangle = order_[i];
+  double at[kWidth];
+  Queue queue;
+  queue.Push(0, 0.0);
+  while (!queue.empty()) {
+    const auto [child, entry] = queue.Pop();
+    if (entry > limit) continue;
+    if (child < 0) {
+      const TreeLeaf& leaf = leaves[~child];
+      Hits(leaf.triangles, origin, direction, at);
+      for (int i = 0; i < kWidth; ++i) {
+        if (std::isinf(at[i])) continue;
+        if (at[i] < limit ||
+            (at[i] == limit && (best.triangle < 0 || leaf.index[i] < best.triangle))) {
+          limit = at[i];
+          best.triangle = leaf.index[i];
         }
       }
       continue;
     }
-    const int left = index + 1;
-    const int right = node.first;
-    const double dl = BoxEntry(origin, inverse, nodes_[left].low, nodes_[left].high, limit);
-    const double dr = BoxEntry(origin, inverse, nodes_[right].low, nodes_[right].high, limit);
-    const bool left_first = dl <= dr;
-    stack[top++] = left_first ? std::pair{right, dr} : std::pair{left, dl};
-    stack[top++] = left_first ? std::pair{left, dl} : std::pair{right, dr};
+    const TreeNode& node = nodes[child];
+    Entries(node.boxes, origin, inverse, limit, at);
+    queue.Open();
+    for (int i = 0; i < node.count; ++i) {
+      if (!std::isinf(at[i])) queue.Push(node.child[i], at[i]);
+    }
   }
-  if (best.triangle < 0) return std::nullopt;
+  if (best.triangle < 0) return best;
   best.distance = limit;
   best.point = origin + limit * direction;
   return best;
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const core::TriangleMesh& mesh) {
+  core::RequireValid(mesh, "triangle tree");
+  const int count = static_cast<int>(mesh.triangles.size());
+  normals_.resize(count);
+  for (int t = 0; t < count; ++t) normals_[t] = core::TriangleAreaVector(mesh, t).normalized();
+  if (count > 0) Build(mesh);
+}
+
+void TriangleTree::Build(const core::TriangleMesh& mesh) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Splitting splitting(mesh);
+  const Eigen::AlignedBox3d bounds = core::Bounds(mesh);
+  const double rounding = kBoxRounding * std::max(bounds.min().cwiseAbs().maxCoeff(),
+                                                  bounds.max().cwiseAbs().maxCoeff());
+  const auto add_leaf = [&](const Splitting::Range& range) {
+    TreeLeaf leaf;
+    for (int i = 0; i < kWidth; ++i) {
+      leaf.index[i] = i < range.count ? splitting.At(range.first + i) : -1;
+      for (int k = 0; k < 3; ++k) {
+        const auto at = [&](int corner) {
+          return i < range.count ? mesh.vertices[mesh.triangles[leaf.index[i]][corner]][k] : nan;
+        };
+        leaf.triangles.a[k][i] = at(0);
+        leaf.triangles.b[k][i] = at(1);
+        leaf.triangles.c[k][i] = at(2);
+      }
+    }
+    leaves_.push_back(leaf);
+    return static_cast<int>(leaves_.size()) - 1;
+  };
+  struct Task {
+    Splitting::Range range;
+    int parent, child;
+  };
+  std::vector<Task> tasks{{{0, size()}, -1, 0}};
+  while (!tasks.empty()) {
+    const Task task = tasks.back();
+    tasks.pop_back();
+    const int index = static_cast<int>(nodes_.size());
+    if (task.parent >= 0) nodes_[task.parent].child[task.child] = index;
+    TreeNode node;
+    for (const Splitting::Range& range : splitting.Parts(task.range)) {
+      const Eigen::AlignedBox3d box = splitting.BoxOf(range);
+      for (int k = 0; k < 3; ++k) {
+        node.boxes.low[k][node.count] = box.min()[k] - rounding;
+        node.boxes.high[k][node.count] = box.max()[k] + rounding;
+      }
+      if (range.count <= kWidth) {
+        node.child[node.count] = ~add_leaf(range);
+      } else {
+        tasks.push_back({range, index, node.count});
+      }
+      ++node.count;
+    }
+    for (int i = node.count; i < kWidth; ++i) {
+      for (int k = 0; k < 3; ++k) node.boxes.low[k][i] = node.boxes.high[k][i] = nan;
+    }
+    nodes_.push_back(node);
+  }
+}
+
+SurfacePoint TriangleTree::Closest(const Vector3d& p, double reach) const {
+  return ClosestPoint(nodes_, leaves_, p, reach);
+}
+
+bool TriangleTree::Within(const Vector3d& p, double reach) const {
+  int home = -1;
+  return Within(p, reach, &home);
+}
+
+bool TriangleTree::Within(const Vector3d& p, double reach, int* home) const {
+  return IsWithin(nodes_, leaves_, p, reach, home);
+}
+
+std::optional<SurfacePoint> TriangleTree::FirstHit(const Vector3d& origin,
+                                                   const Vector3d& direction, double reach) const {
+  const SurfacePoint hit = NearestHit(nodes_, leaves_, origin, direction, reach);
+  if (hit.triangle < 0) return std::nullopt;
+  return hit;
 }
 
 bool TriangleTree::SegmentMeets(const Vector3d& from, const Vector3d& to) const {
@@ -270,28 +355,32 @@ bool TriangleTree::SegmentMeets(const Vector3d& from, const Vector3d& to) const 
 void TriangleTree::Overlapping(const Eigen::AlignedBox3d& box, std::vector<int>* triangles) const {
   triangles->clear();
   if (nodes_.empty()) return;
-  std::array<int, kMaxDepth> stack;
+  std::array<int, kDeepest> waiting;
   int top = 0;
-  stack[top++] = 0;
+  waiting[top++] = 0;
   while (top > 0) {
-    const int index = stack[--top];
-    const Node& node = nodes_[index];
-    if ((node.low.array() > box.max().array()).any() ||
-        (node.high.array() < box.min().array()).any()) {
-      continue;
-    }
-    if (node.count == 0) {
-      stack[top++] = node.first;
-      stack[top++] = index + 1;
-      continue;
-    }
-    for (int i = node.first; i < node.first + node.count; ++i) {
-      const Vector3d* c = &corners_[3 * static_cast<std::size_t>(i)];
-      const Vector3d low = c[0].cwiseMin(c[1]).cwiseMin(c[2]);
-      const Vector3d high = c[0].cwiseMax(c[1]).cwiseMax(c[2]);
-      if ((low.array() <= box.max().array()).all() && (high.array() >= box.min().array()).all()) {
-        triangles->push_back(order_[i]);
+    const int child = waiting[--top];
+    if (child < 0) {
+      const TreeLeaf& leaf = leaves_[~child];
+      for (int i = 0; i < kWidth && leaf.index[i] >= 0; ++i) {
+        bool overlaps = true;
+        for (int k = 0; k < 3; ++k) {
+          const auto [low, high] =
+              std::minmax({leaf.triangles.a[k][i], leaf.triangles.b[k][i], leaf.triangles.c[k][i]});
+          overlaps = overlaps && low <= box.max()[k] && high >= box.min()[k];
+        }
+        if (overlaps) triangles->push_back(leaf.index[i]);
       }
+      continue;
+    }
+    const TreeNode& node = nodes_[child];
+    for (int i = 0; i < node.count; ++i) {
+      bool overlaps = true;
+      for (int k = 0; k < 3; ++k) {
+        overlaps = overlaps && node.boxes.low[k][i] <= box.max()[k] &&
+                   node.boxes.high[k][i] >= box.min()[k];
+      }
+      if (overlaps) waiting[top++] = node.child[i];
     }
   }
   std::sort(triangles->begin(), triangles->end());

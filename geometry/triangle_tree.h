@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "core/lanes.h"
 #include "core/mesh.h"
 
 namespace simwright::geometry {
@@ -22,8 +23,30 @@ struct SurfacePoint {
 Eigen::Vector3d ClosestPointOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                        const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
+// The corners of up to four triangles, by coordinate; NaN for a missing one.
+struct TriangleLanes {
+  double a[3][core::kLanes], b[3][core::kLanes], c[3][core::kLanes];
+};
+
+// Up to four AABBs, by coordinate.
+struct BoxLanes {
+  double low[3][core::kLanes], high[3][core::kLanes];
+};
+
+struct TreeNode {
+  BoxLanes boxes;           // of the children, enlarged by the rounding of what is computed inside
+  int child[core::kLanes];  // >= 0: a node; otherwise ~child is a leaf
+  int count = 0;            // children
+};
+
+struct TreeLeaf {
+  TriangleLanes triangles;
+  int index[core::kLanes];  // of the triangles in the mesh, or -1
+};
+
 // A bounding volume hierarchy over the triangles of one mesh, for closest points, first hits and
-// overlap. Queries are const and thread-safe.
+// overlap: four boxes to a node and up to four triangles to a leaf, each tested at once. Queries
+// are const and thread-safe.
 class TriangleTree {
  public:
   // Keeps a copy of the corners. Throws core::Error on an index out of range or NaN.
@@ -37,6 +60,10 @@ class TriangleTree {
   // Returns true if any triangle is within `reach` of p. Cheaper than Closest: it stops at the
   // first.
   bool Within(const Eigen::Vector3d& p, double reach) const;
+
+  // The same for points that follow each other closely: `home` (-1 at first) keeps the leaf that
+  // was within reach of the last one, which is tested first.
+  bool Within(const Eigen::Vector3d& p, double reach, int* home) const;
 
   // Returns the first hit of origin + t * direction with t in [0, reach]; distance is t.
   std::optional<SurfacePoint> FirstHit(
@@ -52,29 +79,14 @@ class TriangleTree {
   // Returns the unit normal of a triangle, by its index in the mesh; zero for one without area.
   Eigen::Vector3d Normal(int triangle) const { return normals_[triangle]; }
 
-  int size() const { return static_cast<int>(corners_.size() / 3); }
+  int size() const { return static_cast<int>(normals_.size()); }
 
  private:
-  struct Node {
-    Eigen::Vector3d low, high;
-    int first = 0;  // leaf: first entry of order_; inner: index of the right child
-    int count = 0;  // leaf: triangles; inner: 0
-  };
+  void Build(const core::TriangleMesh& mesh);
 
-  void Build();
-  // Visits triangles that may be within reach, nearer AABBs first, until `visit(closest point,
-  // squared distance, triangle)` returns false. The visitor may shorten the reach.
-  template <typename Visit>
-  void VisitNear(const Eigen::Vector3d& p, const double& reach_squared, Visit visit) const;
-  // Sets the bounds of `node` to those of some triangles; returns the extent of their centres.
-  Eigen::Vector3d Enclose(const std::vector<Eigen::Vector3d>& source,
-                          const std::vector<Eigen::Vector3d>& centers, int first, int count,
-                          Node* node) const;
-
-  std::vector<Eigen::Vector3d> corners_;  // (3M x 3), in tree order
-  std::vector<int> order_;                // (M) tree order to the mesh's index
-  std::vector<Eigen::Vector3d> normals_;  // (M x 3), in the mesh's order
-  std::vector<Node> nodes_;               // depth first: the left child follows its parent
+  std::vector<Eigen::Vector3d> normals_;  // (M x 3)
+  std::vector<TreeNode> nodes_;           // the root is the first
+  std::vector<TreeLeaf> leaves_;
 };
 
 }  // namespace simwright::geometry

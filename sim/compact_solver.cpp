@@ -7,12 +7,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 
-// Compiles a function for AVX2 too; the program's start chooses. GCC's sanitizers do without.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define SIMWRIGHT_WIDEST_VECTORS __attribute__((target_clones("avx2", "default")))
-#else
-#define SIMWRIGHT_WIDEST_VECTORS
-#endif
+#include "core/lanes.h"
 
 namespace simwright::sim {
 namespace {

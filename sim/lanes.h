@@ -1,15 +1,11 @@
 #pragma once
 
+#include "core/lanes.h"
+
 namespace simwright::sim {
 
-// Generalized vectors are padded with zeros to a multiple of this.
-constexpr int kLanes = 4;
-
-// Four numbers at once: one AVX register, or two of SSE. Sums have the same order in both, and
-// products and sums are not contracted, so that results do not depend on the processor.
-// The attributes precede the type, since Clang ignores `aligned` behind it.
-using Lanes __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias)) = double;
-static_assert(alignof(Lanes) == alignof(double), "rows of numbers start at any double");
+using core::kLanes;  // generalized vectors are padded with zeros to a multiple of this
+using core::Lanes;
 
 // Returns the scalar product of two vectors of `count` numbers.
 __attribute__((always_inline)) inline double Product(const double* jacobian, const double* velocity,

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstring>
+
+// Compiles a function for AVX2 too; the program's start chooses. GCC's sanitizers do without.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define SIMWRIGHT_WIDEST_VECTORS __attribute__((target_clones("avx2", "default")))
+#else
+#define SIMWRIGHT_WIDEST_VECTORS
+#endif
+
+namespace simwright::core {
+
+constexpr int kLanes = 4;
+
+// Four numbers at once: one AVX register, or two of SSE. Sums have the same order in both, and
+// products and sums are not contracted, so that results do not depend on the processor.
+// The attributes precede the type, since Clang ignores `aligned` behind it.
+using Lanes __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias)) = double;
+static_assert(alignof(Lanes) == alignof(double), "rows of numbers start at any double");
+
+// Both work at any double. Clang takes a reference to Lanes for one to aligned memory.
+__attribute__((always_inline)) inline void LoadLanes(const double* from, Lanes* to) {
+  std::memcpy(to, from, sizeof(Lanes));
+}
+
+__attribute__((always_inline)) inline void StoreLanes(const Lanes& from, double* to) {
+  std::memcpy(to, &from, sizeof(Lanes));
+}
+
+}  // namespace simwright::core
