@@ -24,11 +24,11 @@ class PointLanes {
   PointLanes Within(const Eigen::AlignedBox3d& box) const;
 
   // Returns the largest depth of a point below the planes (normal . p <= offset), >= 0: the least
-  // of offset - normal . p. Stops at the first point that is deeper than `enough` and returns its
-  // depth.
+  // of offset - normal . p; infinite without planes. Stops at the first point that is deeper than
+  // `enough` and returns its depth.
   double Depth(const std::vector<Eigen::Vector4d>& planes, double enough) const;
 
-  // Returns the number of points that are strictly below all planes.
+  // Returns the number of points that are strictly below all planes; all without planes.
   int CountBelow(const std::vector<Eigen::Vector4d>& planes) const;
 
  private:

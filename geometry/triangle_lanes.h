@@ -33,7 +33,7 @@ SIMWRIGHT_INLINE LaneVector Minus(const Eigen::Vector3d& a, const LaneVector& b)
   return {a.x() - b.x, a.y() - b.y, a.z() - b.z};
 }
 
-// Sets the scalar products, summed in the order of Eigen's.
+// Sets the scalar products, summed in the order of Eigen's where that vectorizes (SSE2).
 SIMWRIGHT_INLINE void Dot(const LaneVector& a, const LaneVector& b, core::Lanes* product) {
   *product = a.x * b.x + a.y * b.y + a.z * b.z;
 }

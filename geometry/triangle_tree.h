@@ -34,9 +34,9 @@ struct BoxLanes {
 };
 
 struct TreeNode {
-  BoxLanes boxes;           // of the children, enlarged by the rounding of what is computed inside
-  int child[core::kLanes];  // >= 0: a node; otherwise ~child is a leaf
-  int count = 0;            // children
+  BoxLanes boxes;  // of the children, enlarged by the rounding of what is computed inside
+  int child[core::kLanes] = {};  // >= 0: a node; otherwise ~child is a leaf
+  int count = 0;                 // children
 };
 
 struct TreeLeaf {
@@ -61,8 +61,8 @@ class TriangleTree {
   // first.
   bool Within(const Eigen::Vector3d& p, double reach) const;
 
-  // The same for points that follow each other closely: `home` (-1 at first) keeps the leaf that
-  // was within reach of the last one, which is tested first.
+  // The same for points that follow each other closely: `home` (-1 at first) keeps the leaf of
+  // this tree that was within reach of the last one, which is tested first.
   bool Within(const Eigen::Vector3d& p, double reach, int* home) const;
 
   // Returns the first hit of origin + t * direction with t in [0, reach]; distance is t.

@@ -25,10 +25,11 @@ struct CarryTask {
 // and, among several configurations, the one that is reached soonest. The arm, with the grasped
 // object ignored as an obstacle, must be collision-free at the destination and on the path:
 // straight, else through waypoints (PlanSimplePath), else by RRT-Connect (PlanRrtConnect). An
-// object that hangs from its rim is carried upright if possible (PlanLevelPath): tilted, it swings
-// in the fingers and arrives askew. Without a collision-free path, returns a reachable arrival;
-// none if no arrival is reachable. A tool that only tracks a straight line to a far destination
-// ends at a joint limit or in furniture.
+// object that hangs from its rim is carried upright if PlanLevelPath finds a path: tilted, it
+// swings in the fingers and arrives askew. Paths keep 2 cm of clearance; one without it, level or
+// not, is only taken if there is no other. Without a collision-free path, returns a reachable
+// arrival; none if no arrival is reachable. A tool that only tracks a straight line to a far
+// destination ends at a joint limit or in furniture.
 std::optional<CarryPlan> PlanCarry(const PlanningArm& context, const Interaction& interaction,
                                    const tasks::WorldState& state, const CarryTask& task,
                                    const robot::JointVector& from);

@@ -17,6 +17,7 @@ constexpr double kRises[] = {0.0, 0.1, 0.2, 0.3, 0.45};     // m above the highe
 constexpr double kRadiusShares[] = {1.0, 0.75, 0.6, 0.45};  // of the larger distance from the axis
 constexpr double kStep = 0.2;                               // m between poses
 constexpr double kTurnStep = 0.4;                           // rad about the robot's axis
+constexpr double kSameTurn = 0.1;                           // rad
 constexpr double kSamePlace = 0.02;                         // m
 
 // Poses (world_from_tool) from a beginning to an end, in cylindrical coordinates about the vertical
@@ -24,7 +25,11 @@ constexpr double kSamePlace = 0.02;                         // m
 class CylindricalPath {
  public:
   CylindricalPath(const Vector3d& base, const Isometry3d& begin, const Isometry3d& end)
-      : base_(base), end_(end), turned_from_(begin.linear()), turned_to_(end.linear()) {
+      : base_(base),
+        begin_(begin),
+        end_(end),
+        turned_from_(begin.linear()),
+        turned_to_(end.linear()) {
     const Vector3d a = begin.translation() - base, b = end.translation() - base;
     radius_ = {a.head<2>().norm(), b.head<2>().norm()};
     from_ = std::atan2(a.y(), a.x());
@@ -38,18 +43,25 @@ class CylindricalPath {
     const double most = share * std::max(radius_[0], radius_[1]), height = height_ + rise;
     const double a = std::min(radius_[0], most), b = std::min(radius_[1], most);
     const double length = std::abs(angle_) * 0.5 * (a + b) + std::abs(a - b);
-    const int steps = 1 + static_cast<int>(std::max(length / kStep, std::abs(angle_) / kTurnStep));
-    std::vector<Isometry3d> poses{At(radius_[0], 0.0, height)};
+    const double turn = std::max(std::abs(angle_), turned_from_.angularDistance(turned_to_));
+    const int steps = 1 + static_cast<int>(std::max(length / kStep, turn / kTurnStep));
+    std::vector<Isometry3d> poses{begin_, At(radius_[0], 0.0, height)};
     for (int i = 0; i <= steps; ++i) {
       const double passed = static_cast<double>(i) / steps;
       poses.push_back(At(a + passed * (b - a), passed, height));
     }
     poses.push_back(At(radius_[1], 1.0, height));
     poses.push_back(end_);
+    // Leaves out poses beside the one before, but not the end.
     const auto same = [](const Isometry3d& one, const Isometry3d& other) {
-      return (one.translation() - other.translation()).norm() < kSamePlace;
+      return (one.translation() - other.translation()).norm() < kSamePlace &&
+             Eigen::Quaterniond(one.linear()).angularDistance(Eigen::Quaterniond(other.linear())) <
+                 kSameTurn;
     };
+    std::reverse(poses.begin(), poses.end());
     poses.erase(std::unique(poses.begin(), poses.end(), same), poses.end());
+    std::reverse(poses.begin(), poses.end());
+    if (poses.size() > 1) poses.erase(poses.begin());
     return poses;
   }
 
@@ -65,7 +77,7 @@ class CylindricalPath {
   }
 
   Vector3d base_;
-  Isometry3d end_;
+  Isometry3d begin_, end_;
   Eigen::Quaterniond turned_from_, turned_to_;
   std::array<double, 2> radius_;     // m, of both ends
   double from_ = 0.0, angle_ = 0.0;  // rad
@@ -121,7 +133,10 @@ std::optional<JointPath> PlanLevelPath(const PlanningArm& context, const Interac
     for (const double rise : kRises) {
       const std::vector<Isometry3d> poses = cylindrical.Poses(rise, share);
       JointPath path = Follow(context, interaction, clearance, from, poses);
-      if (path.size() == poses.size() && goal.is_suitable(path.back())) return path;
+      if (path.size() == poses.size() && goal.is_suitable(path.back()) &&
+          LargestTilt(context, interaction, from, path) <= kLevelTilt) {
+        return path;
+      }
       const robot::JointVector last = path.empty() ? from : path.back();
       path.emplace_back();
       for (const robot::JointVector& end : goal.configurations) {

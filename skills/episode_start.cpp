@@ -19,7 +19,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kTries = 60;
-constexpr int kPlacedStep = 5;  // tries left out where single objects have ranges: all are alike
+constexpr int kMostSearches = 10;  // by RRT-Connect, which is slow where there is no path
+constexpr int kPlacedStep = 5;     // tries left out where single objects have ranges: all are alike
 constexpr double kFarthestStart = 0.4, kNearest = 0.2;  // m
 constexpr double kClearance = 0.02;     // m off opened parts, which the arm would push shut
 constexpr double kPerturbation = 0.03;  // rad, perturbation of an arm after another skill
@@ -48,12 +49,6 @@ Isometry3d Moved(const Isometry3d& pose, const Vector3d& pivot, const Vector3d& 
 double DistanceOffset(int attempt) {
   const double share = std::max(0.0, (attempt - kTries / 3) / (kTries * 2.0 / 3.0));
   return share * (attempt % 2 == 0 ? kFarthestStart : -kNearest);
-}
-
-// Returns the first try in which a plan without a path is accepted. An arm that cannot get
-// behind an open door keeps opening it wider; if the furniture is farther away, there is a path.
-int FirstUnclearTry(const SkillVariant& variant) {
-  return variant.target->pushes ? 2 * kTries / 3 : kTries / 3;
 }
 
 // Returns the range of an object's placement to each side.
@@ -311,11 +306,13 @@ void PlanRetreatAndReach(const Skill& skill, const SkillVariant& variant, core::
 }
 
 // Samples poses for all objects and plans the manipulation there. Accepts poses with an unreachable
-// later skill only if there are no others, and plans that are not clear only after those.
+// later skill only if there are no others; after those a plan that is not clear, if possible one
+// whose pre-grasp is reached.
 void EpisodeStartPlaceObjects(const Skill& skill, core::Rng& rng, StartState* start) {
   const SkillVariant& variant = skill.variants[static_cast<size_t>(start->variant)];
   const robot::JointVector home = skill.robot->home();
-  std::optional<StartState> second_best, unclear;
+  std::optional<StartState> second_best, reaching, pathless;
+  int searches = 0;
   const bool placed = !skill.options.placement_ranges.empty();
   for (int attempt = 0; attempt < kTries; attempt += placed ? kPlacedStep : 1) {
     start->state = variant.start;
@@ -330,19 +327,21 @@ void EpisodeStartPlaceObjects(const Skill& skill, core::Rng& rng, StartState* st
       ApplyPlan(skill, variant, *plan, start);
       if (IsDownstreamReachable(skill, start->variant, start->state, rng)) return;
       if (!second_best) second_best = *start;
-    } else if (plan && round && !unclear) {
+    } else if (plan && round && !reaching && searches++ < kMostSearches) {
       SearchPath(skill, variant, start->state, home, &*plan);
-      if (plan->IsReachable() || attempt >= FirstUnclearTry(variant)) {
-        ApplyPlan(skill, variant, *plan, start);
-        unclear = *start;
+      ApplyPlan(skill, variant, *plan, start);
+      if (plan->IsReachable()) {
+        reaching = *start;
+      } else if (!pathless) {
+        pathless = *start;
       }
     }
     start->state = variant.start;
   }
-  if (second_best) {
-    *start = *second_best;
-  } else if (unclear) {
-    *start = *unclear;
+  for (const auto& choice : {second_best, reaching, pathless}) {
+    if (!choice) continue;
+    *start = *choice;
+    return;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "core/random.h"
@@ -79,16 +80,9 @@ TEST(TriangleTree, ClosestIsExactlyBruteForce) {
   }
 }
 
-TEST(TriangleTree, FirstHitIsThatOfSingleTrianglesAndOverlapsAreComplete) {
+TEST(TriangleTree, FirstHitSolvesEachTriangleAndOverlapsAreComplete) {
   const TriangleMesh soup = Soup(150, 8);
   const TriangleTree tree(soup);
-  std::vector<TriangleTree> single;
-  for (const auto& t : soup.triangles) {
-    TriangleMesh one;
-    for (int k = 0; k < 3; ++k) one.vertices.push_back(soup.vertices[t[k]]);
-    one.triangles = {{0, 1, 2}};
-    single.emplace_back(one);
-  }
   core::Rng rng(9);
   for (int q = 0; q < 300; ++q) {
     const Vector3d p = 2.5 * core::Uniform(rng) * core::UniformDirection(rng);
@@ -96,15 +90,24 @@ TEST(TriangleTree, FirstHitIsThatOfSingleTrianglesAndOverlapsAreComplete) {
     const Vector3d direction =
         q % 3 == 0 ? Vector3d(Vector3d::Unit(q % 9 / 3)) : core::UniformDirection(rng);
     Nearest first;
-    for (std::size_t t = 0; t < single.size(); ++t) {
-      const auto hit = single[t].FirstHit(p, direction);
-      if (hit && hit->distance < first.distance) first = {static_cast<int>(t), hit->distance};
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+      const Vector3d &a = soup.vertices[soup.triangles[t][0]],
+                     &b = soup.vertices[soup.triangles[t][1]],
+                     &c = soup.vertices[soup.triangles[t][2]];
+      // p + x direction = a + y (b - a) + z (c - a)
+      Eigen::Matrix3d columns;
+      columns << -direction, b - a, c - a;
+      const Eigen::FullPivLU<Eigen::Matrix3d> system(columns);
+      if (!system.isInvertible()) continue;  // a triangle without area, or along the ray
+      const Vector3d x = system.solve(p - a);
+      const bool hits = x.minCoeff() >= 0.0 && x[1] + x[2] <= 1.0;
+      if (hits && x[0] < first.distance) first = {static_cast<int>(t), x[0]};
     }
     const auto hit = tree.FirstHit(p, direction);
     ASSERT_EQ(hit.has_value(), first.triangle >= 0);
     if (hit.has_value()) {
       EXPECT_EQ(hit->triangle, first.triangle);
-      EXPECT_EQ(hit->distance, first.distance);
+      EXPECT_NEAR(hit->distance, first.distance, 1e-9 * (1.0 + first.distance));
       EXPECT_FALSE(tree.FirstHit(p, direction, 0.999 * first.distance).has_value());
     }
     const Eigen::AlignedBox3d box(p, Vector3d(p + 0.3 * Vector3d::Ones()));

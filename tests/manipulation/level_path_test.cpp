@@ -2,6 +2,9 @@
 // open door.
 #include "manipulation/level_path.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "manipulation/ik_solutions.h"
@@ -20,12 +23,12 @@ struct BesideADoor {
   const robot::Arm& arm = skill->robot->arm;
   CollisionChecker clearance{*skill, variant, variant.start};
 
-  // Returns the pose of a tool at `place` that leans by 0.8 rad and is turned by `yaw` (rad).
-  static Isometry3d Leaning(const Vector3d& place, double yaw) {
+  // Returns the pose of a tool at `place` that leans by `lean` (rad) and is turned by `yaw` (rad).
+  static Isometry3d Leaning(const Vector3d& place, double yaw, double lean = 0.8) {
     Isometry3d tool = Isometry3d::Identity();
     tool.linear() = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) *
                     Vector3d(1.0, -1.0, -1.0).asDiagonal() *
-                    Eigen::AngleAxisd(-0.8, Vector3d::UnitY()).toRotationMatrix();
+                    Eigen::AngleAxisd(-lean, Vector3d::UnitY()).toRotationMatrix();
     tool.translation() = place;
     return tool;
   }
@@ -91,6 +94,53 @@ TEST(PlanLevelPath, KeepsTheToolUprightWhereAStraightSegmentDoesNot) {
   }
   EXPECT_GE(planned, 3);
   EXPECT_GE(tilted, 3);  // the segments that the path replaces
+}
+
+// The tool turns at its place, or moves by less than poses are apart.
+TEST(PlanLevelPath, EndsAtNearGoals) {
+  const BesideADoor scene;
+  const Vector3d at(0.45, -0.3, 0.3);
+  const auto begins = scene.At(BesideADoor::Leaning(at, -0.5), scene.skill->robot->home());
+  ASSERT_FALSE(begins.empty());
+  for (const Isometry3d& there : {BesideADoor::Leaning(at, 0.1),
+                                  BesideADoor::Leaning(at - Vector3d(0.0, 0.0, 0.015), -0.5)}) {
+    const LevelGoal goal{there, {}, [](const robot::JointVector&) { return true; }};
+    const auto path =
+        PlanLevelPath(*scene.skill, scene.variant, scene.clearance, begins.front(), goal);
+    ASSERT_TRUE(path);
+    const Isometry3d arrived = scene.variant.subtask.start.world_from_robot *
+                               robot::ForwardKinematics(scene.arm, path->back());
+    EXPECT_LT((arrived.translation() - there.translation()).norm(), 0.01);
+    EXPECT_LT(Eigen::AngleAxisd(arrived.linear().transpose() * there.linear()).angle(), 0.15);
+  }
+}
+
+TEST(PlanLevelPath, FindsNoneWhereTheToolMustTilt) {
+  const BesideADoor scene;
+  const auto begins =
+      scene.At(BesideADoor::Leaning({0.45, -0.3, 0.3}, 0.0, 0.8), scene.skill->robot->home());
+  ASSERT_FALSE(begins.empty());
+  const Isometry3d there = BesideADoor::Leaning({0.45, -0.2, 0.3}, 0.0, 0.2);
+  const LevelGoal goal{there, scene.At(there, begins.front()),
+                       [](const robot::JointVector&) { return true; }};
+  EXPECT_FALSE(goal.configurations.empty());
+  EXPECT_FALSE(PlanLevelPath(*scene.skill, scene.variant, scene.clearance, begins.front(), goal));
+}
+
+TEST(PlanLevelPath, EndsOnlyWhereItIsSuitable) {
+  const BesideADoor scene;
+  const auto begins =
+      scene.At(BesideADoor::Leaning({0.45, -0.3, 0.3}, -0.5), scene.skill->robot->home());
+  ASSERT_FALSE(begins.empty());
+  LevelGoal goal{BesideADoor::Leaning({0.45, -0.1, 0.35}, 0.0), {}, [](const robot::JointVector&) {
+                   return true;
+                 }};
+  const auto plan = [&] {
+    return PlanLevelPath(*scene.skill, scene.variant, scene.clearance, begins.front(), goal);
+  };
+  EXPECT_TRUE(plan());
+  goal.is_suitable = [](const robot::JointVector&) { return false; };
+  EXPECT_FALSE(plan());
 }
 
 TEST(PlanLevelPath, FindsNoneToAGoalOutOfReach) {
