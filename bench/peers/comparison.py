@@ -42,7 +42,7 @@ def parser_of(text: str | None) -> argparse.ArgumentParser:
     """Returns a parser with the options that all comparisons share."""
     parser = argparse.ArgumentParser(
         description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", type=Path, default=Path("build/bin"), metavar="DIR",
+    parser.add_argument("--bin", type=Path, default=Path(__file__).resolve().parents[2] / "build/bin", metavar="DIR",
                         help="folder of the benchmarks")
     parser.add_argument("--full", action="store_true", help="the sizes of docs/figures.md")
     parser.add_argument("--rows", type=Path, metavar="FILE",

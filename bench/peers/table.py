@@ -122,11 +122,16 @@ def main() -> int:
                         help="write the table to this file too")
     options = parser.parse_args()
     options.bin = options.bin.resolve()
+    for file in (options.rows, options.output):
+        if file and not file.parent.is_dir():
+            parser.error(f"{file}: there is no folder {file.parent}")
+    chosen = [row for row in ROWS if not options.only or row.name in options.only]
+    if all(row.missing(options.bin) for row in chosen):
+        parser.error("no row can run: " + "; ".join(
+            f"{row.name}: {row.missing(options.bin)}" for row in chosen))
     lines, good = HEADER.splitlines(), True
     with tempfile.TemporaryDirectory() as folder:
-        for row in ROWS:
-            if options.only and row.name not in options.only:
-                continue
+        for row in chosen:
             found, fine = run(row, options, Path(folder))
             lines += found
             good = good and fine
