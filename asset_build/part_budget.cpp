@@ -93,10 +93,9 @@ void ReportBinding(const core::TriangleMesh& solid, const geometry::Decompositio
     std::snprintf(more, sizeof more, "is not reached by %zu parts without limits either: %.2f mm",
                   needed.parts.size(), 1e3 * needed.deviation);
   }
-  std::snprintf(text, sizeof text,
-                "%zu collision part%s from the solid by about %.2f mm; %s %s", done.parts.size(),
-                done.parts.size() == 1 ? " deviates" : "s deviate", 1e3 * done.deviation, goal,
-                more);
+  std::snprintf(text, sizeof text, "%zu collision part%s from the solid by about %.2f mm; %s %s",
+                done.parts.size(), done.parts.size() == 1 ? " deviates" : "s deviate",
+                1e3 * done.deviation, goal, more);
   findings->push_back(
       {"part-budget", core::Severity::kWarning, place, text, done.deviation, Remedy(budget)});
 }
